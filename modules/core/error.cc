@@ -1,0 +1,7 @@
+#include "core/error.h"
+
+namespace saker {
+
+Error::Error(const std::string& line) : std::runtime_error(line) {}
+
+}  // namespace saker

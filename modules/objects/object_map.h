@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/time.h"
+#include "objects/class_table.h"
+#include "objects/models.h"
+
+namespace saker::objects {
+
+struct MapObject {
+  int id = -1;
+  ClassId class_id = 0;
+  std::vector<double> class_probability;  ///< fused, one an entry of the class table
+  int observations = 0;
+  Model model;                            ///< in the map's frame
+  Eigen::MatrixXd covariance;             ///< as in Measurement, in the object's own frame; NaN where not computed
+};
+
+/// The sparse map: objects and local ground, in `frame`.
+struct ObjectMap {
+  std::string frame = "world";
+  std::vector<MapObject> objects;  ///< ascending id
+  std::vector<GroundPlane> ground;
+};
+
+}  // namespace saker::objects
