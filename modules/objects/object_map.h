@@ -14,7 +14,8 @@ struct MapObject {
   std::vector<double> class_probability;  ///< fused, one an entry of the class table
   int observations = 0;
   Model model;                            ///< in the map's frame
-  Eigen::MatrixXd covariance;             ///< as in Measurement, in the object's own frame; NaN where not computed
+  Eigen::MatrixXd covariance;             ///< as in Measurement, in the object's own frame; empty where not computed
+  int points = -1;                        ///< returns that hit it, said by a simulator's truth; −1: unknown
 };
 
 /// The sparse map: objects and local ground, in `frame`.
