@@ -1,0 +1,175 @@
+#include "odometry/odometry.h"
+
+namespace saker::odometry {
+namespace {
+
+constexpr std::size_t kMostSampledPoints =
+    262144;  // two returns of a sensor of 128 rows and 1024 columns
+
+std::int32_t offset_of(const lidar::Scan& scan, std::size_t i) {
+  return i < scan.offset_ns.size() ? scan.offset_ns[i] : 0;
+}
+
+}  // namespace
+
+const char* to_string(OdometryStatus status) {
+  switch (status) {
+    case OdometryStatus::ok:
+      return "ok";
+    case OdometryStatus::predicted:
+      return "predicted";
+    case OdometryStatus::refused:
+      return "refused";
+  }
+  return "?";
+}
+
+const char* to_string(OdometryReason reason) {
+  switch (reason) {
+    case OdometryReason::none:
+      return "none";
+    case OdometryReason::not_newer:
+      return "not newer than the last scan";
+    case OdometryReason::too_few_points:
+      return "too few points";
+    case OdometryReason::no_fit:
+      return "does not fit the local map";
+  }
+  return "?";
+}
+
+Odometry::Odometry(const OdometryConfig& config)
+    : config_(core::checked(config, "odometry")),
+      map_(config_.map),
+      registration_(config_.registration),
+      gate_(config_.gate),
+      motion_(config_.motion),
+      filter_(kMostSampledPoints) {}
+
+OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
+                                         std::span<const lidar::ImuSample> imu) {
+  if (started_ && scan.stamp <= motion_.stamp()) return refused(scan);
+  thin(scan);
+  if (!started_) return start(scan, imu);
+
+  const Prediction prediction = motion_.predict(scan.stamp, imu);
+  const Fit found = fit(scan, imu, prediction);
+  OdometryEstimate estimate = report(scan, prediction, found);
+  remember(prediction, found);
+  if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
+    add_to_map(scan, found.sweep);
+  return estimate;
+}
+
+OdometryEstimate Odometry::start(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu) {
+  const Sweep sweep = motion_.first_sweep(scan.stamp, Sweep::span_of(scan), imu);
+  motion_.start(scan.stamp, level(imu));
+  pruned_stamp_ = scan.stamp;
+  started_ = true;
+  add_to_map(scan, sweep);
+  OdometryEstimate estimate = refused(scan);
+  estimate.status = OdometryStatus::ok;
+  estimate.reason = OdometryReason::none;
+  estimate.points = sweep.deskewed(scan);
+  estimate.diagnostics.points = static_cast<int>(registration_sample_.size());
+  estimate.diagnostics.map_voxels = static_cast<int>(map_.size());
+  return estimate;
+}
+
+OdometryEstimate Odometry::refused(const lidar::Scan& scan) const {
+  OdometryEstimate estimate;
+  estimate.stamp = scan.stamp;
+  estimate.T_odom_lidar = motion_.T_odom_lidar();
+  estimate.covariance.setZero();
+  estimate.reason = OdometryReason::not_newer;
+  estimate.points = scan.points;
+  return estimate;
+}
+
+void Odometry::thin(const lidar::Scan& scan) {
+  filter_.thin(scan.points, config_.map_sample_m, config_.min_range_m, config_.max_range_m,
+               map_sample_);
+  filter_.thin(scan.points, map_sample_, config_.registration_sample_m, registration_sample_);
+}
+
+void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
+                      std::span<const std::uint32_t> chosen) {
+  scratch_.clear();
+  for (const std::uint32_t i : chosen)
+    scratch_.push_back(sweep.deskewed(scan.points[i], offset_of(scan, i)).cast<double>());
+}
+
+Odometry::Fit Odometry::fit(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu,
+                            const Prediction& prediction) {
+  const Time span = Sweep::span_of(scan);
+  const SE3& predicted = prediction.prior.T_odom_lidar;
+  Fit fit;
+  fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
+  fit.registration.T_odom_lidar = predicted;
+  const int rounds = span == 0 ? 1 : config_.deskew_rounds;
+  for (int round = 0; round < rounds; ++round) {
+    const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
+    fit.sweep = motion_.sweep(prediction, T_odom_lidar, span, imu);
+    deskew(scan, fit.sweep, registration_sample_);
+    fit.registration =
+        registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
+    if (!registration_.trustworthy(fit.registration, scratch_.size())) break;
+  }
+  if (!registration_.enough(registration_sample_.size())) {
+    fit.reason = OdometryReason::too_few_points;
+  } else if (!registration_.trustworthy(fit.registration, registration_sample_.size())) {
+    fit.reason = OdometryReason::no_fit;
+  }
+  const bool fits = fit.reason == OdometryReason::none;
+  fit.sweep =
+      motion_.sweep(prediction, fits ? fit.registration.T_odom_lidar : predicted, span, imu);
+  return fit;
+}
+
+OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& prediction,
+                                  const Fit& fit) const {
+  const bool fits = fit.reason == OdometryReason::none;
+  OdometryEstimate estimate;
+  estimate.stamp = scan.stamp;
+  estimate.T_odom_lidar = fits ? fit.registration.T_odom_lidar : prediction.prior.T_odom_lidar;
+  // Both ends of the motion carry the error of a registration.
+  estimate.covariance = fits ? 2 * fit.registration.covariance : prediction.prior.covariance;
+  estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
+  estimate.reason = fit.reason;
+  estimate.points = fit.sweep.deskewed(scan);
+  estimate.diagnostics = {.points = static_cast<int>(registration_sample_.size()),
+                          .iterations = fit.registration.iterations,
+                          .inliers = fit.registration.inliers,
+                          .rms_m = fit.registration.rms_m,
+                          .gate_m = fit.gate_m,
+                          .map_voxels = static_cast<int>(map_.size()),
+                          .gyro_used = prediction.rotation.has_value()};
+  return estimate;
+}
+
+void Odometry::remember(const Prediction& prediction, const Fit& fit) {
+  if (fit.reason == OdometryReason::none) {
+    gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
+    motion_.accept(prediction, fit.registration.T_odom_lidar, fit.registration.covariance);
+    misfits_ = 0;
+    return;
+  }
+  motion_.coast(prediction);
+  misfits_ += fit.reason == OdometryReason::no_fit;
+  if (misfits_ < config_.restart_after) return;
+  map_.clear();  // lost: the scan begins a new map where it is thought to be
+  gate_.reset();
+}
+
+void Odometry::add_to_map(const lidar::Scan& scan, const Sweep& sweep) {
+  misfits_ = 0;
+  deskew(scan, sweep, map_sample_);
+  const SE3& T_odom_lidar = motion_.T_odom_lidar();
+  for (Eigen::Vector3d& point : scratch_) point = T_odom_lidar * point;
+  map_.insert(scratch_, scan.stamp);
+  if (to_seconds(scan.stamp - pruned_stamp_) < config_.prune_every_s) return;
+  map_.prune(T_odom_lidar.translation(), scan.stamp);
+  pruned_stamp_ = scan.stamp;
+}
+
+}  // namespace saker::odometry

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/config.h"
+#include "core/se3.h"
+#include "lidar/scan.h"
+#include "odometry/adaptive_gate.h"
+#include "odometry/motion_model.h"
+#include "odometry/registration.h"
+#include "odometry/sweep.h"
+#include "odometry/voxel_filter.h"
+#include "odometry/voxel_map.h"
+
+namespace saker::odometry {
+
+struct OdometryConfig {
+  double min_range_m = 1.5;
+  double max_range_m = 80;
+  double map_sample_m = 0.2;
+  double registration_sample_m = 0.6;
+  int deskew_rounds = 2;
+  double prune_every_s = 1;
+  int restart_after = 5;
+  VoxelMapConfig map;
+  RegistrationConfig registration;
+  AdaptiveGateConfig gate;
+  MotionConfig motion;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("min_range_m", min_range_m, {0, 20}, "m", "nearer points are the vehicle's own");
+    v.field("max_range_m", max_range_m, {5, 500}, "m",
+            "farther points are too sparse to make planes");
+    v.field("map_sample_m", map_sample_m, {0.02, 5}, "m",
+            "one point a voxel of this size goes into the map");
+    v.field("registration_sample_m", registration_sample_m, {0.05, 10}, "m",
+            "one point a voxel of this size is registered");
+    v.field("deskew_rounds", deskew_rounds, {1, 5}, "",
+            "registrations of a scan with point times, each deskewed by the last one's motion");
+    v.field("prune_every_s", prune_every_s, {0, 60}, "s",
+            "how often far and old voxels are dropped");
+    v.field("restart_after", restart_after, {1, 1000}, "",
+            "scans in a row that do not fit the map, until a new map begins at the prediction");
+    v.group("map", map, "the local map");
+    v.group("registration", registration, "scan to map");
+    v.group("gate", gate, "how far a point may be from the map");
+    v.group("motion", motion, "prediction");
+  }
+};
+
+enum class OdometryStatus {
+  ok,         ///< registered; the first scan defines `odom`
+  predicted,  ///< the pose is the prediction; `reason` says why
+  refused     ///< nothing changed; the pose is the last one
+};
+
+enum class OdometryReason { none, not_newer, too_few_points, no_fit };
+
+[[nodiscard]] const char* to_string(OdometryStatus status);
+[[nodiscard]] const char* to_string(OdometryReason reason);
+
+struct OdometryDiagnostics {
+  int points = 0;  ///< registered, after thinning
+  int iterations = 0;
+  int inliers = 0;
+  double rms_m = 0;   ///< of the inliers' distances to their planes
+  double gate_m = 0;  ///< at which they were sought
+  int map_voxels = 0;
+  bool gyro_used = false;
+};
+
+struct OdometryEstimate {
+  Time stamp = 0;
+  SE3 T_odom_lidar = SE3::Identity();
+  /// Of the motion since the last scan; 0 for the first scan and a refused one.
+  Matrix6d covariance = Matrix6d::Constant(NAN);
+  OdometryStatus status = OdometryStatus::refused;
+  OdometryReason reason = OdometryReason::none;
+  /// Deskewed, in the lidar frame at `stamp`, one a point of the scan; what is not finite stays so.
+  std::vector<Eigen::Vector3f> points;
+  OdometryDiagnostics diagnostics;
+};
+
+/// Stage 1: reads scans with the IMU samples since the one before (lidar), makes each scan's pose
+/// in `odom`, the covariance of the motion and the deskewed points (for segmentation, detection,
+/// slam, the collision checker).
+///
+/// Frames: `odom` is the first scan's lidar frame at its stamp, turned level by the mean specific
+/// force where there is an IMU (yaw 0). Covariances: tangent [rotation, translation], right.
+/// Method: predict (constant twist; with an IMU the gyroscope's rotation and a constant velocity),
+/// deskew by that motion, point-to-plane ICP to a voxel map of Gaussians with robust weights and
+/// the prediction as prior, deskew and register once more with the motion found, add the scan to
+/// the map. Sources: gate and two thinnings, Vizzo et al., "KISS-ICP" (RA-L 2023), sec. III; planes
+/// of voxels, Yuan et al., "VoxelMap" (RA-L 2022), sec. III; deskewing by the motion between two
+/// scans, Dellenbach et al., "CT-ICP" (ICRA 2022). Cost: README.md. One thread; after the first
+/// scans only the estimate's points are allocated.
+class Odometry {
+ public:
+  explicit Odometry(const OdometryConfig& config);  ///< throws Error on an invalid value
+
+  /// Time order is required: a scan that is not newer than the last one is refused and changes
+  /// nothing.
+  [[nodiscard]] OdometryEstimate register_scan(const lidar::Scan& scan,
+                                               std::span<const lidar::ImuSample> imu);
+
+ private:
+  struct Fit {
+    RegistrationResult registration;
+    Sweep sweep;
+    double gate_m = 0;
+    OdometryReason reason = OdometryReason::none;
+  };
+
+  [[nodiscard]] OdometryEstimate start(const lidar::Scan& scan,
+                                       std::span<const lidar::ImuSample> imu);
+  [[nodiscard]] OdometryEstimate refused(const lidar::Scan& scan) const;
+  [[nodiscard]] Fit fit(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu,
+                        const Prediction& prediction);
+  [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
+                                        const Fit& fit) const;
+
+  void thin(const lidar::Scan& scan);
+  void remember(const Prediction& prediction, const Fit& fit);
+  void add_to_map(const lidar::Scan& scan, const Sweep& sweep);
+  /// The scan's chosen points, deskewed, in scratch_.
+  void deskew(const lidar::Scan& scan, const Sweep& sweep, std::span<const std::uint32_t> chosen);
+
+  OdometryConfig config_;
+  VoxelMap map_;
+  Registration registration_;
+  AdaptiveGate gate_;
+  MotionModel motion_;
+  VoxelFilter filter_;
+
+  bool started_ = false;
+  Time pruned_stamp_ = 0;
+  int misfits_ = 0;  // scans in a row
+  std::vector<std::uint32_t> map_sample_, registration_sample_;
+  std::vector<Eigen::Vector3d> scratch_;
+};
+
+}  // namespace saker::odometry

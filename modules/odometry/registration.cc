@@ -1,0 +1,88 @@
+#include "odometry/registration.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace saker::odometry {
+
+Registration::NormalEquations Registration::linearise(std::span<const Eigen::Vector3d> points,
+                                                      const SE3& T, VoxelMap& map, double gate_m,
+                                                      double kernel_m) {
+  NormalEquations sum;
+  distances_.clear();
+  const Eigen::Matrix3d R = T.linear();
+  const double kernel2 = kernel_m * kernel_m;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = T * point;
+    const auto plane = map.nearest_plane(p, gate_m > 1);
+    if (!plane) continue;
+    const double r = plane->normal.dot(p - plane->point);
+    if (std::abs(r) > gate_m) continue;
+    distances_.push_back(static_cast<float>(std::abs(r)));
+    const double robust = kernel2 / (kernel2 + r * r);  // Geman-McClure: w = (k² / (k² + r²))²
+    const double w = robust * robust / (config_.noise_m * config_.noise_m + plane->variance);
+    const Eigen::Vector3d n = R.transpose() * plane->normal;
+    Vector6d J;  // d r / d [rotation, translation], right
+    J.head<3>() = point.cross(n);
+    J.tail<3>() = n;
+    sum.H.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
+    sum.g += w * r * J;
+    sum.chi2 += w * r * r;
+    sum.weights += robust * robust;
+    if (robust < 0.7) continue;
+    ++sum.inliers;
+    sum.square_sum += r * r;
+  }
+  sum.H = sum.H.selfadjointView<Eigen::Lower>();
+  return sum;
+}
+
+double Registration::next_kernel(double gate_m) {
+  if (distances_.empty()) return gate_m;
+  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 2);
+  std::nth_element(distances_.begin(), middle, distances_.end());
+  return std::clamp(3 * 1.4826 * static_cast<double>(*middle),
+                    std::min(config_.least_kernel_m, gate_m), gate_m);
+}
+
+RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
+                                       const PosePrior& prior, const SE3& start, VoxelMap& map,
+                                       double gate_m) {
+  RegistrationResult result;
+  result.T_odom_lidar = start;
+  const Matrix6d prior_information = prior.covariance.inverse();
+  double kernel_m = gate_m;
+  Matrix6d information = prior_information;
+  while (result.iterations < config_.max_iterations && !result.converged) {
+    const NormalEquations sum = linearise(points, result.T_odom_lidar, map, gate_m, kernel_m);
+    // Residuals larger than the model says widen the covariance; neighbouring points are not
+    // independent.
+    const double inflation =
+        config_.correlation * std::max(1.0, sum.chi2 / std::max(1.0, sum.weights));
+    const Vector6d from_prior = core::se3_log(prior.T_odom_lidar.inverse() * result.T_odom_lidar);
+    information = sum.H / inflation + prior_information;
+    const Vector6d step =
+        -information.ldlt().solve(sum.g / inflation + prior_information * from_prior);
+    if (!step.allFinite()) break;
+    result.T_odom_lidar = result.T_odom_lidar * core::se3_exp(step);
+    ++result.iterations;
+    result.inliers = sum.inliers;
+    result.rms_m = sum.inliers > 0 ? std::sqrt(sum.square_sum / sum.inliers) : 0;
+    result.converged =
+        step.head<3>().norm() < config_.stop_rad && step.tail<3>().norm() < config_.stop_m;
+    kernel_m = next_kernel(gate_m);
+  }
+  result.covariance = information.inverse();
+  const Vector6d deviation = core::se3_log(prior.T_odom_lidar.inverse() * result.T_odom_lidar);
+  result.deviation_sd = std::sqrt(std::max(0.0, deviation.dot(prior_information * deviation)) / 6);
+  return result;
+}
+
+bool Registration::trustworthy(const RegistrationResult& result, std::size_t points) const {
+  return result.inliers >= config_.min_inliers &&
+         result.inliers >= config_.min_inlier_ratio * static_cast<double>(points) &&
+         result.deviation_sd <= config_.max_deviation_sd && result.covariance.allFinite();
+}
+
+}  // namespace saker::odometry

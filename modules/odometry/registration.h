@@ -1,0 +1,102 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/config.h"
+#include "core/se3.h"
+#include "odometry/voxel_map.h"
+
+namespace saker::odometry {
+
+struct RegistrationConfig {
+  int max_iterations = 20;
+  double stop_m = 2e-4;
+  double stop_rad = 1e-5;
+  double noise_m = 0.02;
+  double least_kernel_m = 0.06;
+  double correlation = 8;
+  int min_inliers = 60;
+  double min_inlier_ratio = 0.25;
+  double max_deviation_sd = 6;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("max_iterations", max_iterations, {1, 200}, "", "most Gauss-Newton steps");
+    v.field("stop_m", stop_m, {1e-7, 0.1}, "m",
+            "a step shorter than this ends it: a tenth of the noise of a pose");
+    v.field("stop_rad", stop_rad, {1e-8, 0.1}, "rad", "and turned by less than this");
+    v.field("noise_m", noise_m, {0.001, 0.5}, "m",
+            "sd of a range; a plane's own thickness is added");
+    v.field("least_kernel_m", least_kernel_m, {0.005, 2}, "m",
+            "least width of the robust kernel: three times the noise");
+    v.field("correlation", correlation, {1, 1000}, "",
+            "points per independent residual: neighbours share their plane's error");
+    v.field("min_inliers", min_inliers, {6, 1e5}, "",
+            "fewer points on planes of the map: not registered");
+    v.field("min_inlier_ratio", min_inlier_ratio, {0, 1}, "",
+            "a smaller share of the points: not registered");
+    v.field("max_deviation_sd", max_deviation_sd, {1, 100}, "",
+            "farther from the prediction, in its standard deviations: not registered");
+  }
+};
+
+/// The pose before the scan is looked at: N(pose, covariance), tangent [rotation, translation],
+/// right.
+struct PosePrior {
+  SE3 T_odom_lidar = SE3::Identity();
+  Matrix6d covariance = Matrix6d::Constant(NAN);
+};
+
+struct RegistrationResult {
+  SE3 T_odom_lidar = SE3::Identity();
+  Matrix6d covariance = Matrix6d::Constant(NAN);  ///< right tangent
+  int iterations = 0;
+  int inliers = 0;          ///< points on a plane, with at least half their weight
+  double rms_m = 0;         ///< of the inliers' distances to their planes
+  double deviation_sd = 0;  ///< from the prior, Mahalanobis, per root of dimension
+  bool converged = false;
+};
+
+/// Point-to-plane ICP with a prior: the pose that maximises N(prior) · Π robust N(distance to the
+/// map's plane | 0, σ²). In directions that the planes leave open the prior decides, and the
+/// covariance says so.
+///
+/// Gauss-Newton; Geman-McClure weights, their width from the median distance of the last step
+/// (Huber, "Robust Statistics", sec. 5.1), closing in from the gate. Cost: points × iterations ×
+/// one hash look-up.
+class Registration {
+ public:
+  explicit Registration(const RegistrationConfig& config) : config_(config) {}
+
+  /// Points in the lidar frame, finite; `start` is where the search begins.
+  [[nodiscard]] RegistrationResult align(std::span<const Eigen::Vector3d> points,
+                                         const PosePrior& prior, const SE3& start, VoxelMap& map,
+                                         double gate_m);
+
+  /// Whether so many points can be registered at all.
+  [[nodiscard]] bool enough(std::size_t points) const {
+    return points >= static_cast<std::size_t>(config_.min_inliers);
+  }
+
+  [[nodiscard]] bool trustworthy(const RegistrationResult& result, std::size_t points) const;
+
+ private:
+  struct NormalEquations {
+    Matrix6d H = Matrix6d::Zero();
+    Vector6d g = Vector6d::Zero();
+    double chi2 = 0;
+    double weights = 0;
+    double square_sum = 0;
+    int inliers = 0;
+  };
+
+  [[nodiscard]] NormalEquations linearise(std::span<const Eigen::Vector3d> points, const SE3& T,
+                                          VoxelMap& map, double gate_m, double kernel_m);
+  [[nodiscard]] double next_kernel(double gate_m);
+
+  RegistrationConfig config_;
+  std::vector<float> distances_;
+};
+
+}  // namespace saker::odometry
