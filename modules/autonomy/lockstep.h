@@ -1,0 +1,98 @@
+#pragma once
+
+#include <deque>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "autonomy/config.h"
+#include "autonomy/schedule.h"
+#include "autonomy/worker_pool.h"
+#include "core/timings.h"
+#include "lidar/recording.h"
+#include "objects/measurement.h"
+#include "objects/object_map.h"
+
+/// The lockstep driver: runs the stages over a recording or a simulated sensor in the sensor's time
+/// and a fixed order.
+///
+///     scan ─▶ odometry (in order, this thread) ──────────────┐
+///       └───▶ segmentation (side by side) ─▶ detection (side by side, a window of labelled scans)
+///       ─▶ SLAM (in order)
+///
+/// Which scans are labelled and when a SLAM cycle is due follow from the stamps alone, every stage
+/// is a function of its inputs, and SLAM takes its cycles in order: the result is the same to the
+/// byte for any number of threads.
+namespace saker::autonomy {
+
+/// What became of one scan.
+struct ScanRecord {
+  std::string name;  ///< file stem or frame number
+  Time stamp = 0;
+  SE3 T_odom_lidar = SE3::Identity();
+  odometry::OdometryStatus status = odometry::OdometryStatus::refused;
+  std::string fault;  ///< why it could not be read; empty otherwise
+};
+
+/// Hears what happens, in order, on the driver's thread.
+class LockstepObserver {
+ public:
+  virtual ~LockstepObserver() = default;
+  virtual void on_scan(const ScanRecord& record, const odometry::OdometryEstimate& estimate) = 0;
+  virtual void on_detections(const objects::Detections& detections) = 0;
+};
+
+struct LockstepResult {
+  std::vector<ScanRecord> scans;   ///< one for every scan that went in
+  std::vector<SE3> T_world_lidar;  ///< beside `scans`: after SLAM
+  objects::ObjectMap map;
+  int labelled_scans = 0;
+  int slam_cycles = 0;
+  int keyframes = 0;
+};
+
+class Lockstep {
+ public:
+  /// \param threads  in all, this one included; 1 runs everything here.
+  /// Throws Error on an invalid configuration or a model that cannot be loaded.
+  Lockstep(const Config& config, int threads, core::Timings& timings);
+  ~Lockstep();
+
+  /// Until the source ends. Never throws for what a recording contains.
+  [[nodiscard]] LockstepResult run(lidar::ScanSource& source, LockstepObserver& observer);
+
+ private:
+  struct Stages;  // one a worker
+  struct LabelledFuture {
+    Time stamp;
+    SE3 T_odom_lidar;
+    std::shared_ptr<const std::vector<Eigen::Vector3f>> points;
+    std::shared_future<std::shared_ptr<const lidar::Labels>> labels;
+  };
+  struct Cycle {
+    slam::SlamInput input;
+    std::shared_future<objects::Detections> detections;
+  };
+
+  void ingest(lidar::Frame frame, LockstepObserver& observer, LockstepResult& result);
+  void accumulate_motion(const odometry::OdometryEstimate& estimate);
+  void start_segmentation(const std::shared_ptr<const lidar::Scan>& scan,
+                          odometry::OdometryEstimate& estimate);
+  void start_cycle(Time now);
+  void finish_cycles(std::size_t most_pending, LockstepObserver& observer);
+
+  Config config_;
+  core::Timings& timings_;
+  odometry::Odometry odometry_;
+  slam::Slam slam_;
+  Schedule segmentation_schedule_;
+  Schedule slam_schedule_;
+  Matrix6d motion_covariance_ = Matrix6d::Zero();  // of the motion since the last cycle
+  SE3 T_odom_last_ = SE3::Identity();
+  std::deque<LabelledFuture> window_;
+  std::deque<Cycle> pending_;
+  WorkerPool<Stages> pool_;  // last: its threads use what stands above
+};
+
+}  // namespace saker::autonomy
