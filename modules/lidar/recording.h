@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar/scan.h"
+
+/// Stage 0: recordings and live sensors, scan by scan.
+///
+/// Reads KITTI-style folders and Ouster captures (and, through ouster_stream.h, live packets);
+/// makes organised or unorganised scans with the inertial samples that came since the last one, in
+/// the order of time, all in the lidar frame. Method: kitti_folder.h, ouster_stream.h. Refuses a
+/// recording that is not there or whose metadata is wrong (Error); a scan that cannot be read
+/// inside a good recording is a Frame with a `fault`. Cost: 1–2 ms for a scan of 64×1024.
+namespace saker::lidar {
+
+/// One scan, as a recording gives it.
+struct Frame {
+  Scan scan;                   ///< empty when `fault` is set; its stamp holds even then
+  std::vector<ImuSample> imu;  ///< since the last frame, oldest first
+  std::string name;            ///< stem of the scan's file, or a running number of six digits
+  std::string fault;           ///< why this scan could not be read; empty when it could
+};
+
+/// What a source met so far that it did not use.
+struct SourceCounters {
+  int faulty_scans = 0;
+  int bad_packets = 0;       ///< of an unknown size, or with columns that do not exist
+  int late_packets = 0;      ///< of a frame that had ended
+  int repeated_columns = 0;  ///< that were there already
+  int missing_columns = 0;   ///< of the window, in frames between the first and the last
+  int lost_fragments = 0;    ///< datagrams of which fragments were missing
+  std::string ended_early;   ///< why the recording ends before its end; empty when it does not
+};
+
+class ScanSource {
+ public:
+  virtual ~ScanSource() = default;
+
+  /// Nothing when the recording is over. Never throws for what is in it.
+  [[nodiscard]] virtual std::optional<Frame> next() = 0;
+  [[nodiscard]] virtual SourceCounters counters() const = 0;
+
+  /// Scans in all, for progress; 0 when that is not known beforehand.
+  [[nodiscard]] virtual int expected_scans() const { return 0; }
+};
+
+enum class RecordingFormat { kAutomatic, kKitti, kOuster };
+
+/// A folder of KITTI scans (`*.bin`, or with `velodyne/` in it) or an Ouster capture (`*.pcap`)
+/// with its metadata beside it
+/// (`STEM.json`, or STEM without its last `_part`) or given. Throws Error when there is nothing to
+/// read.
+[[nodiscard]] std::unique_ptr<ScanSource> open_recording(
+    const std::filesystem::path& path, RecordingFormat format = RecordingFormat::kAutomatic,
+    const std::filesystem::path& metadata = {});
+
+/// Metadata that belongs to a capture; throws Error that names where it was looked for.
+[[nodiscard]] std::filesystem::path find_metadata(const std::filesystem::path& capture);
+
+}  // namespace saker::lidar
