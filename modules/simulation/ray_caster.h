@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "simulation/world.h"
+
+namespace saker::simulation {
+
+/// A ray and what it met first.
+struct Shot {
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();      ///< world
+  Eigen::Vector3f direction = Eigen::Vector3f::UnitX();  ///< unit
+  float near = 0;                                        ///< m, what is nearer is not seen
+  float distance = 0;  ///< m from the origin, meaningful where `hit`
+  float cosine = 0;    ///< of the angle between the ray and the surface's normal, 0 … 1
+  MaterialId material = 0;
+  ObjectId object = 0;
+  bool hit = false;
+};
+
+/// The world as Embree's bounding volume hierarchy (Wald et al., "Embree", SIGGRAPH 2014).
+/// Prototypes are instanced. Refers to `world`, which has to outlive it and must not change.
+class RayCaster {
+ public:
+  explicit RayCaster(const World& world);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+
+  /// Fills in what each ray meets within `far` metres. Rays in an order in which neighbours run
+  /// alike are fastest.
+  void cast(std::span<Shot> shots, float far) const;
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace saker::simulation

@@ -1,0 +1,157 @@
+#include "simulation/scanner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace saker::simulation {
+namespace {
+
+constexpr int kColumnsAtOnce = 16;
+constexpr int kMostSurfaces = 6;  ///< that a beam may pass
+
+/// Share of the light that comes back from where it met the surface: diffuse, and a narrow
+/// highlight.
+double returned_share(const Material& m, double cosine) {
+  const double diffuse = (1 - m.gloss) * std::pow(cosine, 0.7);
+  const double highlight = m.gloss * 2.5 * std::exp(-(1 - cosine) / 0.02);
+  return diffuse + highlight;
+}
+
+CastScan empty_scan(int rows, int columns) {
+  CastScan scan;
+  scan.rows = rows;
+  scan.columns = columns;
+  const std::size_t size = static_cast<std::size_t>(rows) * columns;
+  scan.range_m.assign(size, 0);
+  scan.points.assign(size, Eigen::Vector3f::Constant(NAN));
+  scan.reflectivity.assign(size, 0);
+  scan.labels.assign(size, 0);
+  scan.objects.assign(size, 0);
+  return scan;
+}
+
+}  // namespace
+
+ReceiverConfig hdl64_receiver() {
+  ReceiverConfig config;
+  config.min_range_m = 1.3;
+  config.max_range_m = 80;
+  config.noise_m = 0.013;
+  config.noise_per_m = 0.0001;
+  config.beam_bias_m = 0.012;
+  config.divergence_mrad = 0.7;
+  config.mixed_share = 0.2;
+  config.drop_share = 0.01;
+  return config;
+}
+
+Scanner::Scanner(const RayCaster& caster, const World& world, BeamTable beams,
+                 const ReceiverConfig& config, std::uint64_t seed)
+    : caster_(&caster),
+      world_(&world),
+      beams_(std::move(beams)),
+      config_(core::checked(config, "receiver")),
+      rng_(seed) {
+  core::Rng rng = rng_.fork(0);
+  for (int row = 0; row < beams_.rows; ++row) {
+    beam_bias_.push_back(static_cast<float>(rng.normal(0, config_.beam_bias_m)));
+  }
+}
+
+void Scanner::aim(int column, const SE3& T_world_lidar, core::Rng& rng,
+                  std::vector<Shot>& shots) const {
+  const Eigen::Isometry3f T = T_world_lidar.cast<float>();
+  const double spread = 1e-3 * config_.divergence_mrad;
+  for (int row = 0; row < beams_.rows; ++row) {
+    const std::size_t i = beams_.index(row, column);
+    const Eigen::Vector3f jitter(static_cast<float>(rng.normal(0, spread)),
+                                 static_cast<float>(rng.normal(0, spread)),
+                                 static_cast<float>(rng.normal(0, spread)));
+    Shot shot;
+    shot.origin = T * beams_.origins[i];
+    shot.direction = T.linear() * (beams_.directions[i] + jitter).normalized();
+    shots.push_back(shot);
+  }
+}
+
+void Scanner::trace(Job& job, core::Rng& rng) const {
+  const float far = static_cast<float>(config_.max_range_m) + 1;
+  caster_->cast(job.shots, far);
+  job.which.clear();
+  for (std::size_t i = 0; i < job.shots.size(); ++i) job.which.push_back(i);
+  for (int surface = 0; surface < kMostSurfaces; ++surface) {
+    std::vector<std::size_t> passing;
+    job.again.clear();
+    for (const std::size_t i : job.which) {
+      Shot& shot = job.shots[i];
+      if (!shot.hit) continue;
+      const float transmission = world_->materials[shot.material].transmission;
+      if (transmission <= 0 || !rng.chance(transmission)) continue;
+      shot.near = shot.distance + 0.002F;
+      passing.push_back(i);
+      job.again.push_back(shot);
+    }
+    if (passing.empty()) return;
+    caster_->cast(job.again, far);
+    for (std::size_t k = 0; k < passing.size(); ++k) job.shots[passing[k]] = job.again[k];
+    job.which = std::move(passing);
+  }
+}
+
+void Scanner::mix_edges(Job& job, core::Rng& rng) const {
+  constexpr float kGap = 1.2F;  ///< m: pulses farther apart are told apart
+  for (std::size_t i = beams_.rows; i + beams_.rows < job.shots.size(); ++i) {
+    Shot& shot = job.shots[i];
+    const Shot& next = job.shots[i + beams_.rows];
+    if (!shot.hit || !next.hit) continue;
+    const float step = next.distance - shot.distance;
+    if (std::abs(step) < 0.1F || std::abs(step) > kGap || !rng.chance(config_.mixed_share))
+      continue;
+    shot.distance += step * static_cast<float>(rng.uniform(0.2, 0.8));
+  }
+}
+
+void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, CastScan& scan) const {
+  if (!shot.hit || rng.chance(config_.drop_share)) return;
+  const Material& m = world_->materials[shot.material];
+  const double cosine = std::max(0.01, static_cast<double>(shot.cosine));
+  const double share = returned_share(m, cosine);
+  const double reflectivity = std::clamp(m.reflectivity + rng.normal(0, m.spread), 0.005, 1.0);
+  const double power = reflectivity * share / (shot.distance * shot.distance);
+  if (!rng.chance(1 - std::exp(-power / config_.sensitivity))) return;
+
+  const double before = std::min(0.7, std::abs(rng.normal(0, m.depth)) / std::max(cosine, 0.05));
+  const double sd = config_.noise_m + config_.noise_per_m * shot.distance;
+  const double distance = shot.distance - before + rng.normal(beam_bias_[row], sd);
+  const double range = distance + beams_.range_offset_m;
+  if (!(range >= config_.min_range_m && range <= config_.max_range_m)) return;
+
+  const std::size_t i = beams_.index(row, column);
+  scan.range_m[i] = static_cast<float>(range);
+  scan.points[i] = beams_.origins[i] + static_cast<float>(distance) * beams_.directions[i];
+  const double seen = reflectivity * std::min(1.0, share / std::pow(cosine, 0.7));
+  scan.reflectivity[i] = static_cast<float>(std::round(100 * std::clamp(seen, 0.0, 0.99)) / 100);
+  scan.labels[i] = m.label;
+  scan.objects[i] = shot.object;
+}
+
+CastScan Scanner::cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index) const {
+  core::Rng rng = rng_.fork(scan_index + 1);
+  CastScan scan = empty_scan(beams_.rows, beams_.columns);
+  Job job;
+  for (int first = 0; first < beams_.columns; first += kColumnsAtOnce) {
+    const int end = std::min(first + kColumnsAtOnce, beams_.columns);
+    job.shots.clear();
+    for (int column = first; column < end; ++column)
+      aim(column, T_world_lidar(column), rng, job.shots);
+    trace(job, rng);
+    mix_edges(job, rng);
+    std::size_t k = 0;
+    for (int column = first; column < end; ++column) {
+      for (int row = 0; row < beams_.rows; ++row) receive(job.shots[k++], row, column, rng, scan);
+    }
+  }
+  return scan;
+}
+
+}  // namespace saker::simulation
