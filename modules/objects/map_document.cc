@@ -154,12 +154,15 @@ Cylinder cylinder_of(const Node& entry) {
 Eigen::MatrixXd covariance_of(const Node& sd, Shape shape) {
   if (shape == Shape::cuboid) {
     Vector9d values;
-    values << sd.at("rotation").vector<3>(0), sd.at("position").vector<3>(0),
-        sd.at("size").vector<3>(0);
+    values.segment<3>(0) = sd.at("rotation").vector<3>(0);
+    values.segment<3>(3) = sd.at("position").vector<3>(0);
+    values.segment<3>(6) = sd.at("size").vector<3>(0);
     return values.cwiseAbs2().asDiagonal();
   }
   Vector6d values;
-  values << sd.at("root").vector<3>(0), sd.at("axis").vector<2>(0), sd.at("radius").number(0);
+  values.segment<3>(0) = sd.at("root").vector<3>(0);
+  values.segment<2>(3) = sd.at("axis").vector<2>(0);
+  values[5] = sd.at("radius").number(0);
   return values.cwiseAbs2().asDiagonal();
 }
 

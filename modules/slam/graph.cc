@@ -1,0 +1,223 @@
+#include "slam/graph.h"
+
+#include <ceres/covariance.h>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "slam/factors.h"
+
+namespace saker::slam {
+namespace {
+
+int parameter_count(const Model& model) {
+  return is_cuboid(model) ? kCuboidParameters : kCylinderParameters;
+}
+
+void write_model(const Model& model, double* parameters) {
+  if (const auto* cuboid = std::get_if<objects::Cuboid>(&model)) {
+    write_pose(cuboid->pose, parameters);
+    Eigen::Map<Eigen::Vector3d>{parameters + kPoseParameters} = cuboid->size;
+    return;
+  }
+  const auto& cylinder = std::get<objects::Cylinder>(model);
+  Eigen::Map<Eigen::Vector3d>{parameters} = cylinder.root;
+  Eigen::Map<Eigen::Vector3d>{parameters + 3} = cylinder.axis;
+  parameters[6] = cylinder.radius;
+}
+
+void read_model(const double* parameters, Model& model) {
+  if (auto* cuboid = std::get_if<objects::Cuboid>(&model)) {
+    cuboid->pose = pose_from(parameters);
+    cuboid->size = Eigen::Map<const Eigen::Vector3d>(parameters + kPoseParameters);
+    return;
+  }
+  auto& cylinder = std::get<objects::Cylinder>(model);
+  cylinder.root = Eigen::Map<const Eigen::Vector3d>(parameters);
+  cylinder.axis = Eigen::Map<const Eigen::Vector3d>(parameters + 3);
+  cylinder.radius = parameters[6];
+}
+
+ceres::Problem::Options keep_ownership() {
+  ceres::Problem::Options options;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+/// Poses and landmarks as a Ceres problem. All parameters lie in one array in the order of
+/// keyframes and landmarks, so that nothing depends on addresses.
+class Graph {
+ public:
+  Graph(const std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
+        const GraphConfig& config)
+      : loss_(config.robust_scale), problem_(keep_ownership()) {
+    reserve(keyframes, landmarks);
+    for (std::size_t k = 0; k < keyframes.size(); ++k) add_keyframe(keyframes, k);
+    if (!keyframes.empty()) problem_.SetParameterBlockConstant(parameters_.data());
+    for (std::size_t l = 0; l < landmarks.size(); ++l) add_landmark(keyframes, *landmarks[l], l);
+  }
+
+  [[nodiscard]] ceres::Problem& problem() { return problem_; }
+  [[nodiscard]] double* pose(std::size_t k) { return parameters_.data() + k * kPoseParameters; }
+  [[nodiscard]] double* landmark(std::size_t l) { return parameters_.data() + offsets_[l]; }
+  [[nodiscard]] bool finite() const {
+    return std::all_of(parameters_.begin(), parameters_.end(),
+                       [](double p) { return std::isfinite(p); });
+  }
+
+ private:
+  void reserve(const std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks) {
+    std::size_t size = keyframes.size() * kPoseParameters;
+    for (const Landmark* landmark : landmarks) {
+      offsets_.push_back(size);
+      size += static_cast<std::size_t>(parameter_count(landmark->model));
+    }
+    parameters_.assign(size, 0);
+  }
+
+  void add_keyframe(const std::vector<Keyframe>& keyframes, std::size_t k) {
+    write_pose(keyframes[k].T_world_lidar, pose(k));
+    problem_.AddParameterBlock(pose(k), kPoseParameters, &pose_manifold_);
+    if (k == 0) return;
+    const SE3 motion = keyframes[k - 1].T_odom_lidar.inverse() * keyframes[k].T_odom_lidar;
+    problem_.AddResidualBlock(new OdometryFactor(motion, keyframes[k].covariance), nullptr,
+                              pose(k - 1), pose(k));
+  }
+
+  void add_landmark(const std::vector<Keyframe>& keyframes, const Landmark& landmark,
+                    std::size_t l) {
+    double* parameters = this->landmark(l);
+    write_model(landmark.model, parameters);
+    ceres::Manifold* manifold = &cylinder_manifold_;
+    if (is_cuboid(landmark.model)) manifold = &cuboid_manifold_;
+    problem_.AddParameterBlock(parameters, parameter_count(landmark.model), manifold);
+    for (const Observation& observation : landmark.observations) {
+      const int k = observation.keyframe - keyframes.front().serial;
+      if (k < 0) continue;
+      const Gaussian& measured = observation.measured;
+      problem_.AddResidualBlock(object_factor(measured.model, measured.covariance).release(),
+                                &loss_, pose(static_cast<std::size_t>(k)), parameters);
+    }
+  }
+
+  PoseManifold pose_manifold_;
+  CuboidManifold cuboid_manifold_;
+  CylinderManifold cylinder_manifold_;
+  ceres::CauchyLoss loss_;
+  std::vector<double> parameters_;
+  std::vector<std::size_t> offsets_;
+  ceres::Problem problem_;
+};
+
+ceres::Solver::Options solver_options(const GraphConfig& config, const core::Budget& budget) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = std::min(config.iterations, budget.most_iterations());
+  options.max_solver_time_in_seconds = std::min(budget.seconds_left(), 1e6);
+  options.function_tolerance = config.function_tolerance;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+/// The landmark's normal equations with the poses held.
+struct NormalEquations {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+
+void add_observation(const Model& model, const Observation& observation, const SE3& T_world_lidar,
+                     double robust_scale, NormalEquations& sum) {
+  // Poses held: the factor's Jacobian in the landmark's tangent is the whitened inverse right
+  // Jacobian, near 1 here.
+  const Gaussian& measured = observation.measured;
+  const Gaussian in_world = transformed(T_world_lidar, Matrix6d::Zero(), measured);
+  const Eigen::VectorXd error = difference(in_world.model, model);
+  const Eigen::MatrixXd information =
+      in_world.covariance.llt().solve(Eigen::MatrixXd::Identity(error.size(), error.size()));
+  const double squared = error.dot(information * error);
+  const double weight = 1 / (1 + squared / (robust_scale * robust_scale));
+  sum.information += weight * information;
+  sum.gradient += weight * information * error;
+}
+
+constexpr int kRefineSteps = 5;
+
+}  // namespace
+
+SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
+                        const GraphConfig& config, const core::Budget& budget) {
+  SolveReport report;
+  if (keyframes.size() < 2 || config.iterations == 0 || budget.used_up(0)) return report;
+  Graph graph(keyframes, landmarks, config);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(config, budget), &graph.problem(), &summary);
+  report.usable = summary.IsSolutionUsable() && graph.finite();
+  report.converged = summary.termination_type == ceres::CONVERGENCE;
+  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.initial_cost = summary.initial_cost;
+  report.final_cost = summary.final_cost;
+  if (!report.usable) return report;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    keyframes[k].T_world_lidar = pose_from(graph.pose(k));
+  for (std::size_t l = 0; l < landmarks.size(); ++l)
+    read_model(graph.landmark(l), landmarks[l]->model);
+  return report;
+}
+
+Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory,
+                       const GraphConfig& config) {
+  const Eigen::Index size = is_cuboid(landmark.model) ? kCuboidTangent : kCylinderTangent;
+  NormalEquations sum;
+  for (int step = 0; step < kRefineSteps; ++step) {
+    sum = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+    for (const Observation& observation : landmark.observations) {
+      const Keyframe* keyframe = trajectory.find(observation.keyframe);
+      if (keyframe != nullptr) {
+        add_observation(landmark.model, observation, keyframe->T_world_lidar, config.robust_scale,
+                        sum);
+      }
+    }
+    const auto solver = sum.information.llt();
+    if (solver.info() != Eigen::Success) return {};
+    landmark.model = moved(landmark.model, solver.solve(sum.gradient));
+  }
+  return sum.information.llt().solve(Eigen::MatrixXd::Identity(size, size));
+}
+
+CovarianceReport graph_covariance(const Trajectory& trajectory,
+                                  std::span<Landmark* const> landmarks,
+                                  std::span<const Landmark* const> wanted,
+                                  const GraphConfig& config) {
+  Graph graph(trajectory.keyframes(), landmarks, config);
+  std::vector<std::pair<const double*, const double*>> blocks;
+  for (const Landmark* landmark : wanted) {
+    const auto at = std::find(landmarks.begin(), landmarks.end(), landmark);
+    const double* parameters = graph.landmark(static_cast<std::size_t>(at - landmarks.begin()));
+    blocks.emplace_back(parameters, parameters);
+  }
+  ceres::Covariance::Options options;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  CovarianceReport report;
+  report.marginal = !blocks.empty() && covariance.Compute(blocks, &graph.problem());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    Landmark copy = *wanted[i];
+    Eigen::MatrixXd result = refine(copy, trajectory, config);
+    if (report.marginal) {
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(result.rows(),
+                                                                                   result.cols());
+      covariance.GetCovarianceBlockInTangentSpace(blocks[i].first, blocks[i].first, block.data());
+      result = block;
+    }
+    report.covariances.push_back(std::move(result));
+  }
+  return report;
+}
+
+}  // namespace saker::slam

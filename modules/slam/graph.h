@@ -1,0 +1,58 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/budget.h"
+#include "slam/landmark.h"
+#include "slam/trajectory.h"
+
+namespace saker::slam {
+
+struct GraphConfig {
+  int iterations = 4;
+  double function_tolerance = 1e-5;
+  double robust_scale = 6;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("iterations", iterations, {0, 1000}, "",
+            "most Levenberg-Marquardt steps a cycle; the start is the last cycle's estimate");
+    v.field("function_tolerance", function_tolerance, {0, 1}, "",
+            "relative decrease of the cost at which a cycle ends");
+    v.field("robust_scale", robust_scale, {0.1, 1000}, "",
+            "Cauchy's scale on whitened errors of objects: half weight at 36, the 99.995 % "
+            "quantile of nine degrees of freedom, so that noise passes and gross errors do not");
+  }
+};
+
+struct SolveReport {
+  bool usable = true;  ///< the estimate is finite and no worse than before
+  bool converged = false;
+  int iterations = 0;
+  double initial_cost = 0, final_cost = 0;
+};
+
+/// Moves poses and believed landmarks to less cost; the first keyframe holds the frame. With a
+/// budget of no iterations nothing changes.
+SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
+                        const GraphConfig& config, const core::Budget& budget);
+
+/// The landmark's estimate from its own observations with the poses held: what candidates get, and
+/// the start after a merge. \return its covariance given the poses, in the landmark's own frame.
+Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory, const GraphConfig& config);
+
+struct CovarianceReport {
+  std::vector<Eigen::MatrixXd>
+      covariances;  ///< in the order asked for, each in the object's own frame (as in Measurement)
+  bool marginal = true;  ///< poses marginalised; false: given the poses, because the graph's could
+                         ///< not be computed
+};
+
+/// Covariances of `wanted` (a subset of `landmarks`) in the world frame.
+[[nodiscard]] CovarianceReport graph_covariance(const Trajectory& trajectory,
+                                                std::span<Landmark* const> landmarks,
+                                                std::span<const Landmark* const> wanted,
+                                                const GraphConfig& config);
+
+}  // namespace saker::slam

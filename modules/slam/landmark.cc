@@ -1,0 +1,196 @@
+#include "slam/landmark.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace saker::slam {
+namespace {
+
+using objects::Cuboid;
+
+constexpr double kMostLog = 12;  // of odds between classes: later measurements can still turn them
+constexpr double kMostFront = 10;  // the same for front and back
+
+bool turns_by_quarters(const Cuboid& a, const Cuboid& b, const LandmarkConfig& config) {
+  return std::min(elongation(a), elongation(b)) < config.square_elongation;
+}
+
+void fuse_class(Landmark& landmark, const std::vector<double>& log_probability) {
+  auto& fused = landmark.class_log;
+  if (fused.empty()) fused.assign(log_probability.size(), 0);
+  const std::size_t count = std::min(fused.size(), log_probability.size());
+  for (std::size_t i = 0; i < count; ++i) fused[i] += log_probability[i];
+  const double highest = *std::max_element(fused.begin(), fused.end());
+  for (double& value : fused) value = std::max(value - highest, -kMostLog);
+}
+
+std::vector<double> clamped_log(const std::vector<double>& probability, double least) {
+  std::vector<double> logs;
+  for (const double p : probability)
+    logs.push_back(std::log(std::isfinite(p) ? std::clamp(p, least, 1 - least) : least));
+  return logs;
+}
+
+void fuse_front(Landmark& landmark, const Eigen::Vector2d& front) {
+  landmark.front = (landmark.front + front).cwiseMax(-kMostFront).cwiseMin(kMostFront);
+}
+
+/// Observations stay in the order of keyframes, one a keyframe.
+void remember(Landmark& landmark, const Observation& observation) {
+  auto& all = landmark.observations;
+  const auto at =
+      std::lower_bound(all.begin(), all.end(), observation.keyframe,
+                       [](const Observation& o, int serial) { return o.keyframe < serial; });
+  if (at != all.end() && at->keyframe == observation.keyframe) {
+    at->measured = fused(at->measured, observation.measured);
+  } else {
+    all.insert(at, observation);
+  }
+}
+
+int turn_between(const Model& model, const Model& reference, const LandmarkConfig& config) {
+  if (!is_cuboid(model)) return 0;
+  const auto& a = std::get<Cuboid>(model);
+  const auto& b = std::get<Cuboid>(reference);
+  return nearest_turn(a, b, turns_by_quarters(a, b, config));
+}
+
+Gaussian turned_by(const Gaussian& measured, int quarters) {
+  return is_cuboid(measured.model) ? turned(measured, quarters) : measured;
+}
+
+void count(Landmark& landmark, const Candidate& candidate) {
+  ++landmark.seen;
+  ++landmark.expected;
+  landmark.last_stamp = candidate.measurement->stamp;
+  landmark.nearest = std::min(landmark.nearest, candidate.distance);
+  landmark.farthest = std::max(landmark.farthest, candidate.distance);
+}
+
+/// The height of a cylinder is that of the part that was seen: the most that was seen of it.
+void raise(Model& model, const Model& measured) {
+  if (auto* cylinder = std::get_if<objects::Cylinder>(&model)) {
+    cylinder->height = std::max(cylinder->height, std::get<objects::Cylinder>(measured).height);
+  }
+}
+
+objects::Shape shape_of(const Model& model) {
+  return is_cuboid(model) ? objects::Shape::cuboid : objects::Shape::cylinder;
+}
+
+}  // namespace
+
+Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
+                      const LandmarkConfig& config) {
+  Landmark landmark;
+  landmark.id = id;
+  landmark.model = candidate.in_world;
+  landmark.first_stamp = candidate.measurement->stamp;
+  observe(landmark, candidate, keyframe, config);
+  return landmark;
+}
+
+void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
+             const LandmarkConfig& config) {
+  const int turn = turn_between(candidate.in_world, landmark.model, config);
+  const double front = std::isfinite(candidate.measurement->front_log_odds)
+                           ? candidate.measurement->front_log_odds
+                           : 0;
+  fuse_front(landmark, turned(Eigen::Vector2d(front, 0), turn));
+  fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
+  remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn)});
+  raise(landmark.model, candidate.in_world);
+  count(landmark, candidate);
+}
+
+void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config) {
+  const int turn = turn_between(other.model, landmark.model, config);
+  for (const Observation& observation : other.observations) {
+    remember(landmark, {observation.keyframe, turned_by(observation.measured, turn)});
+  }
+  fuse_front(landmark, turned(other.front, turn));
+  fuse_class(landmark, other.class_log);
+  raise(landmark.model, other.model);
+  landmark.seen += other.seen;
+  landmark.expected = std::max(landmark.expected + other.seen, other.expected);
+  landmark.seen_moving += other.seen_moving;
+  landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
+  landmark.last_stamp = std::max(landmark.last_stamp, other.last_stamp);
+  landmark.nearest = std::min(landmark.nearest, other.nearest);
+  landmark.farthest = std::max(landmark.farthest, other.farthest);
+}
+
+void forget(Landmark& landmark, int serial) {
+  std::erase_if(landmark.observations,
+                [serial](const Observation& o) { return o.keyframe < serial; });
+}
+
+std::vector<double> class_probability(const Landmark& landmark) {
+  std::vector<double> probability;
+  double sum = 0;
+  for (const double value : landmark.class_log) sum += probability.emplace_back(std::exp(value));
+  for (double& p : probability) p /= sum;
+  return probability;
+}
+
+objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& table) {
+  const objects::Shape shape = shape_of(landmark.model);
+  int best = 0;
+  for (int id = 0; id < std::min<int>(table.size(), static_cast<int>(landmark.class_log.size()));
+       ++id) {
+    if (table[static_cast<objects::ClassId>(id)].shape != shape) continue;
+    const auto log = [&](int i) { return landmark.class_log[static_cast<std::size_t>(i)]; };
+    if (best == 0 || log(id) > log(best)) best = id;
+  }
+  return static_cast<objects::ClassId>(best);
+}
+
+double shape_probability(const Landmark& landmark, const objects::ClassTable& table) {
+  const std::vector<double> probability = class_probability(landmark);
+  double sum = 0;
+  for (std::size_t id = 0; id < probability.size(); ++id) {
+    if (table[static_cast<objects::ClassId>(id)].shape == shape_of(landmark.model))
+      sum += probability[id];
+  }
+  return sum;
+}
+
+bool believed(const Landmark& landmark, const objects::ClassTable& table,
+              const LandmarkConfig& config) {
+  if (landmark.seen < config.confirm_observations) return false;
+  if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
+  if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
+  if (2 * landmark.seen_moving > landmark.seen) return false;
+  return shape_probability(landmark, table) >= 0.5;
+}
+
+bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config) {
+  return distance <= config.view_margin * landmark.farthest && distance >= landmark.nearest;
+}
+
+bool moves(const Landmark& landmark, const Trajectory& trajectory, const LandmarkConfig& config) {
+  if (!is_cuboid(landmark.model) || landmark.observations.size() < 2) return false;
+  const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
+  double longest = config.vehicle_length_m;
+  for (const Observation& observation : landmark.observations) {
+    const Keyframe* keyframe = trajectory.find(observation.keyframe);
+    if (keyframe == nullptr) continue;
+    const auto& measured = std::get<Cuboid>(observation.measured.model);
+    const Eigen::Vector2d centre =
+        (T_cuboid_world * keyframe->T_world_lidar * measured.pose.translation()).head<2>();
+    low = low.cwiseMin(centre - 0.5 * measured.size.head<2>());
+    high = high.cwiseMax(centre + 0.5 * measured.size.head<2>());
+    longest = std::max(longest, measured.size.head<2>().maxCoeff());
+  }
+  return (high - low).maxCoeff() > longest + config.moving_distance_m;
+}
+
+int naming_turn(const Landmark& landmark) {
+  if (!is_cuboid(landmark.model)) return 0;
+  const auto& cuboid = std::get<Cuboid>(landmark.model);
+  if (cuboid.size.x() >= cuboid.size.y()) return landmark.front.x() >= 0 ? 0 : 2;
+  return landmark.front.y() >= 0 ? 1 : 3;
+}
+
+}  // namespace saker::slam

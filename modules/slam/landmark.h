@@ -1,0 +1,125 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "core/config.h"
+#include "core/time.h"
+#include "objects/measurement.h"
+#include "slam/model_algebra.h"
+#include "slam/trajectory.h"
+
+namespace saker::slam {
+
+struct LandmarkConfig {
+  int confirm_observations = 3;
+  double confirm_span_s = 0.9;
+  double least_seen_ratio = 0.25;
+  double view_margin = 0.8;
+  double square_elongation = 2;
+  double class_clamp = 0.05;
+  double moving_distance_m = 1.5;
+  double vehicle_length_m = 5;
+  int most = 1000;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("confirm_observations", confirm_observations, {1, 1000}, "",
+            "windows in which an object was measured before it enters the map");
+    v.field(
+        "confirm_span_s", confirm_span_s, {0, 100}, "s",
+        "between the first and the last of them: more than the overlap of neighbouring windows");
+    v.field(
+        "least_seen_ratio", least_seen_ratio, {0, 1}, "",
+        "of the windows in which the object should have been measured; below, it is not believed");
+    v.field("view_margin", view_margin, {0.1, 1}, "",
+            "of the largest distance at which the object was measured: nearer, it should be "
+            "measured again");
+    v.field("square_elongation", square_elongation, {1, 10}, "",
+            "of length to width, below which a heading is good to a quarter turn only: a whole "
+            "vehicle has 2.2 to 2.8, less is a part of one");
+    v.field("class_clamp", class_clamp, {1e-4, 0.3}, "",
+            "least probability of a class that one measurement may state, so that no single one "
+            "decides");
+    v.field("moving_distance_m", moving_distance_m, {0.2, 20}, "m",
+            "by which an object's measured footprints reach beyond one object's length: it moves");
+    v.field("vehicle_length_m", vehicle_length_m, {2, 20}, "m",
+            "length that footprints of one parked vehicle cover together, seen from all sides");
+    v.field("most", most, {1, 100000}, "",
+            "objects kept; the one with the fewest observations goes first");
+  }
+};
+
+/// A measurement on its way into the map: in the newest keyframe's frame, with the covariance it
+/// has there.
+struct Candidate {
+  const objects::Measurement* measurement = nullptr;
+  Gaussian in_keyframe;
+  Model in_world;       ///< by the current estimate
+  double distance = 0;  ///< from the lidar, m
+};
+
+/// What one keyframe says about one object; several measurements from one keyframe are fused.
+struct Observation {
+  int keyframe = 0;   ///< serial
+  Gaussian measured;  ///< in the keyframe's lidar frame, cuboids named as the landmark's
+};
+
+/// An object of the graph, or a candidate for one.
+struct Landmark {
+  int id = -1;
+  Model model;                            ///< world; the estimate
+  std::vector<Observation> observations;  ///< ascending keyframe
+  std::vector<double>
+      class_log;  ///< of the fused class probability, one an entry of the class table
+  Eigen::Vector2d front =
+      Eigen::Vector2d::Zero();  ///< log-odds that the front is along +x, along +y
+  int seen = 0;                 ///< windows in which it was measured
+  int expected = 0;             ///< windows in which it should have been, `seen` included
+  int seen_moving = 0;          ///< windows in which what was measured there moved
+  Time first_stamp = 0, last_stamp = 0;
+  double nearest = std::numeric_limits<double>::infinity(),
+         farthest = 0;  ///< distances at which it was measured, m
+};
+
+[[nodiscard]] Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
+                                    const LandmarkConfig& config);
+
+/// Takes a measurement in: turns its heading to the nearer of two (or four), fuses class and front,
+/// remembers it.
+void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
+             const LandmarkConfig& config);
+
+/// Takes over all that `other` knows: two candidates were one object.
+void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config);
+
+/// Forgets observations from keyframes before `serial`.
+void forget(Landmark& landmark, int serial);
+
+[[nodiscard]] std::vector<double> class_probability(const Landmark& landmark);
+
+/// The most probable class of the landmark's shape.
+[[nodiscard]] objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& table);
+
+/// Of all classes of the landmark's shape together: a trunk that may be a pole is still something.
+[[nodiscard]] double shape_probability(const Landmark& landmark, const objects::ClassTable& table);
+
+/// Seen often enough, over long enough, where it should be seen, of a class of its shape, and
+/// standing still.
+[[nodiscard]] bool believed(const Landmark& landmark, const objects::ClassTable& table,
+                            const LandmarkConfig& config);
+
+/// Whether the robot at `distance` m should measure it: between the distances at which it was
+/// measured.
+[[nodiscard]] bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config);
+
+/// Whether the footprints that were measured cover together more than one object: it moves. What is
+/// seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
+[[nodiscard]] bool moves(const Landmark& landmark, const Trajectory& trajectory,
+                         const LandmarkConfig& config);
+
+/// Quarters that turn a cuboid's frame to its name: the longer edge is the length, x points to the
+/// front.
+[[nodiscard]] int naming_turn(const Landmark& landmark);
+
+}  // namespace saker::slam

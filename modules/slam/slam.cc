@@ -1,0 +1,188 @@
+#include "slam/slam.h"
+
+#include <algorithm>
+
+namespace saker::slam {
+namespace {
+
+constexpr std::size_t kMostMeasurements = 500;  // of one window: more is a fault of what made them
+
+bool fits(const objects::Measurement& measurement, const objects::ClassTable& table) {
+  return measurement.class_probability.size() == static_cast<std::size_t>(table.size()) &&
+         valid({measurement.model, measurement.covariance});
+}
+
+/// Landmarks with a place in the graph.
+std::vector<Landmark*> believed_ones(std::vector<Landmark>& landmarks,
+                                     const objects::ClassTable& table,
+                                     const LandmarkConfig& config) {
+  std::vector<Landmark*> all;
+  for (Landmark& landmark : landmarks) {
+    if (believed(landmark, table, config)) all.push_back(&landmark);
+  }
+  return all;
+}
+
+}  // namespace
+
+Slam::Slam(const SlamConfig& config, const objects::ClassTable& table)
+    : config_(core::checked(config, "slam")),
+      table_(table),
+      trajectory_(config.keyframes),
+      ground_(config.ground) {}
+
+SlamUpdate Slam::update(const SlamInput& input, const core::Budget& budget) {
+  SlamUpdate report;
+  if (last_stamp_ && input.stamp <= *last_stamp_) report.status = SlamStatus::old_input;
+  if (!input.T_odom_lidar.matrix().allFinite()) report.status = SlamStatus::invalid_input;
+  if (report.status != SlamStatus::updated) return report;
+  last_stamp_ = input.stamp;
+  report.keyframe_added =
+      trajectory_.advance(input.stamp, input.T_odom_lidar, input.odometry_covariance);
+  retire();
+  const std::vector<Candidate> candidates = accepted(input.detections, report);
+  integrate(candidates, report);
+  review(report);
+  ground_.add(input.detections.ground, trajectory_);
+  optimise(budget, report);
+  report.T_world_lidar = trajectory_.T_world_lidar();
+  return report;
+}
+
+void Slam::retire() {
+  if (!trajectory_.retired()) return;
+  ground_.retire(*trajectory_.retired());
+  for (Landmark& landmark : landmarks_) forget(landmark, trajectory_.keyframes().front().serial);
+}
+
+std::vector<Candidate> Slam::accepted(const objects::Detections& detections,
+                                      SlamUpdate& report) const {
+  std::vector<Candidate> candidates;
+  for (const objects::Measurement& measurement : detections.measurements) {
+    if (candidates.size() >= kMostMeasurements || !fits(measurement, table_)) {
+      ++report.refused;
+      continue;
+    }
+    const Gaussian in_lidar{measurement.model,
+                            config_.measurement_covariance_scale * measurement.covariance};
+    Candidate candidate;
+    candidate.measurement = &measurement;
+    candidate.in_keyframe =
+        transformed(trajectory_.T_keyframe_lidar(), trajectory_.motion_covariance(), in_lidar);
+    candidate.in_world = objects::transformed(trajectory_.T_world_lidar(), measurement.model);
+    candidate.distance = objects::place(measurement.model).norm();
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+void Slam::integrate(const std::vector<Candidate>& candidates, SlamUpdate& report) {
+  const std::vector<int> landmark_of =
+      associate(candidates, landmarks_, table_, config_.association);
+  if (!candidates.empty()) expect(landmark_of);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    const Candidate& candidate = candidates[c];
+    const auto known = static_cast<std::size_t>(std::max(landmark_of[c], 0));
+    if (candidate.measurement->moving) {
+      ++report.moving;
+      if (landmark_of[c] >= 0) ++landmarks_[known].seen_moving;
+    } else if (landmark_of[c] >= 0) {
+      ++report.matched;
+      observe(landmarks_[known], candidate, trajectory_.newest().serial, config_.landmarks);
+    } else {
+      ++report.created;
+      landmarks_.push_back(
+          new_landmark(next_id_++, candidate, trajectory_.newest().serial, config_.landmarks));
+    }
+  }
+}
+
+void Slam::expect(const std::vector<int>& measured) {
+  const Eigen::Vector3d here = trajectory_.T_world_lidar().translation();
+  for (std::size_t l = 0; l < landmarks_.size(); ++l) {
+    if (std::find(measured.begin(), measured.end(), static_cast<int>(l)) != measured.end())
+      continue;
+    const double distance = (objects::place(landmarks_[l].model) - here).norm();
+    if (in_view(landmarks_[l], distance, config_.landmarks)) ++landmarks_[l].expected;
+  }
+}
+
+void Slam::review(SlamUpdate& report) {
+  report.merged = merge_duplicates(landmarks_, config_.duplicates, config_.landmarks);
+  const auto gone = [this](const Landmark& landmark) {
+    return landmark.seen_moving > std::max(2, landmark.seen) ||
+           moves(landmark, trajectory_, config_.landmarks);
+  };
+  report.removed = static_cast<int>(std::erase_if(landmarks_, gone));
+  while (static_cast<int>(landmarks_.size()) > config_.landmarks.most) {
+    landmarks_.erase(
+        std::min_element(landmarks_.begin(), landmarks_.end(),
+                         [](const Landmark& a, const Landmark& b) { return a.seen < b.seen; }));
+    ++report.removed;
+  }
+}
+
+void Slam::optimise(const core::Budget& budget, SlamUpdate& report) {
+  for (Landmark& landmark : landmarks_) {
+    if (!believed(landmark, table_, config_.landmarks))
+      refine(landmark, trajectory_, config_.graph);
+  }
+  const std::vector<Landmark*> in_graph = believed_ones(landmarks_, table_, config_.landmarks);
+  report.confirmed = static_cast<int>(in_graph.size());
+  report.solve = solve_graph(trajectory_.keyframes(), in_graph, config_.graph, budget);
+}
+
+objects::MapObject Slam::map_object(const Landmark& landmark) const {
+  objects::MapObject object;
+  object.id = landmark.id;
+  object.class_id = class_of(landmark, table_);
+  object.class_probability = class_probability(landmark);
+  object.observations = landmark.seen;
+  object.model = landmark.model;
+  if (is_cuboid(landmark.model)) {
+    object.model = turned(std::get<objects::Cuboid>(landmark.model), naming_turn(landmark));
+  }
+  return object;
+}
+
+objects::ObjectMap Slam::map() const {
+  objects::ObjectMap map;
+  for (const Landmark& landmark : landmarks_) {
+    if (believed(landmark, table_, config_.landmarks)) map.objects.push_back(map_object(landmark));
+  }
+  map.ground = ground_.planes(trajectory_);
+  return map;
+}
+
+Slam::MapWithCovariance Slam::map_with_covariance() const {
+  MapWithCovariance result{map(), true};
+  std::vector<int> ids;
+  for (const objects::MapObject& object : result.map.objects) ids.push_back(object.id);
+  CovarianceReport report = covariance(ids);
+  result.marginal = report.marginal;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    result.map.objects[i].covariance = std::move(report.covariances[i]);
+  }
+  return result;
+}
+
+CovarianceReport Slam::covariance(std::span<const int> ids) const {
+  std::vector<Landmark> copies = landmarks_;
+  const std::vector<Landmark*> in_graph = believed_ones(copies, table_, config_.landmarks);
+  std::vector<const Landmark*> wanted;
+  for (const Landmark* landmark : in_graph) {
+    if (std::find(ids.begin(), ids.end(), landmark->id) != ids.end()) wanted.push_back(landmark);
+  }
+  const CovarianceReport of_wanted = graph_covariance(trajectory_, in_graph, wanted, config_.graph);
+  CovarianceReport report{std::vector<Eigen::MatrixXd>(ids.size()), of_wanted.marginal};
+  for (std::size_t w = 0; w < wanted.size(); ++w) {
+    Gaussian named{wanted[w]->model, of_wanted.covariances[w]};
+    if (is_cuboid(named.model) && named.covariance.size() > 0)
+      named = turned(named, naming_turn(*wanted[w]));
+    const auto at = std::find(ids.begin(), ids.end(), wanted[w]->id);
+    report.covariances[static_cast<std::size_t>(at - ids.begin())] = named.covariance;
+  }
+  return report;
+}
+
+}  // namespace saker::slam
