@@ -20,10 +20,11 @@ MotionModel::MotionModel(const MotionConfig& config)
       gyro_(config.gyro),
       twist_covariance_(diagonal(config.initial_rate_rps, config.initial_speed_mps)) {}
 
-void MotionModel::start(Time stamp, const Eigen::Matrix3d& R_odom_lidar) {
+void MotionModel::start(Time stamp, Time span, std::span<const lidar::ImuSample> imu) {
   stamp_ = registered_stamp_ = stamp;
   T_odom_lidar_.setIdentity();
-  T_odom_lidar_.linear() = R_odom_lidar;
+  T_odom_lidar_.linear() = level(imu);
+  first_rotation_ = gyro_.integrate(imu, stamp - span, stamp);
 }
 
 Prediction MotionModel::predict(Time stamp, std::span<const lidar::ImuSample> imu) const {
@@ -61,18 +62,34 @@ Matrix6d MotionModel::motion_covariance(double seconds, bool gyro_used) const {
 Sweep MotionModel::sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
                          std::span<const lidar::ImuSample> imu) const {
   if (span == 0) return {};
-  const SE3 motion = T_odom_lidar_.inverse() * T_odom_lidar;
+  const double seconds = prediction.seconds;
   if (const auto track = gyro_.integrate(imu, prediction.stamp - span, prediction.stamp)) {
     const Eigen::Vector3d velocity =
-        (T_odom_lidar.translation() - T_odom_lidar_.translation()) / prediction.seconds;
-    return Sweep::rotating(*track, T_odom_lidar.linear().transpose() * velocity, span);
+        (T_odom_lidar.translation() - T_odom_lidar_.translation()) / seconds;
+    const Eigen::Vector3d change =
+        moved_ ? Eigen::Vector3d((velocity - velocity_) / seconds) : Eigen::Vector3d::Zero();
+    const Eigen::Matrix3d R_lidar_odom = T_odom_lidar.linear().transpose();
+    return Sweep::rotating(*track, {R_lidar_odom * velocity, R_lidar_odom * change, seconds}, span);
   }
-  return Sweep::constant_twist(core::se3_log(motion) / prediction.seconds, span);
+  const Vector6d twist = core::se3_log(T_odom_lidar_.inverse() * T_odom_lidar) / seconds;
+  const Vector6d change = moved_ ? Vector6d((twist - twist_) / seconds) : Vector6d::Zero();
+  return Sweep::twisting({twist, change, seconds}, span);
 }
 
-Sweep MotionModel::first_sweep(Time stamp, Time span, std::span<const lidar::ImuSample> imu) const {
-  const auto track = gyro_.integrate(imu, stamp - span, stamp);
-  return track ? Sweep::rotating(*track, Eigen::Vector3d::Zero(), span) : Sweep();
+Sweep MotionModel::first_sweep(Time span) const {
+  if (span == 0 || !first_rotation_) return {};
+  return Sweep::rotating(*first_rotation_, {}, span);
+}
+
+Sweep MotionModel::first_sweep(const Prediction& prediction, const SE3& T_odom_lidar,
+                               Time span) const {
+  if (span == 0) return {};
+  const SE3 motion = T_odom_lidar_.inverse() * T_odom_lidar;
+  const double seconds = prediction.seconds;
+  const auto zero = Eigen::Vector3d::Zero();
+  if (first_rotation_)
+    return Sweep::rotating(*first_rotation_, {motion.translation() / seconds, zero, seconds}, span);
+  return Sweep::twisting({core::se3_log(motion) / seconds, Vector6d::Zero(), seconds}, span);
 }
 
 void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
@@ -85,6 +102,7 @@ void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
   }
   twist_ = core::se3_log(motion) / seconds;
   twist_covariance_ = covariance / (seconds * seconds);
+  moved_ = true;
   velocity_ = (T_odom_lidar.translation() - T_odom_lidar_.translation()) / seconds;
   usual_interval_s_ += 0.1 * (seconds - usual_interval_s_);
   T_odom_lidar_ = T_odom_lidar;
@@ -100,6 +118,7 @@ void MotionModel::coast(const Prediction& prediction) {
   if (to_seconds(stamp_ - registered_stamp_) <= config_.max_coast_s) return;
   twist_.setZero();
   velocity_.setZero();
+  moved_ = false;
   twist_covariance_ = diagonal(config_.initial_rate_rps, config_.initial_speed_mps);
 }
 

@@ -54,16 +54,19 @@ class MotionModel {
  public:
   explicit MotionModel(const MotionConfig& config);
 
-  void start(Time stamp, const Eigen::Matrix3d& R_odom_lidar);
+  /// `span`: of the first scan.
+  void start(Time stamp, Time span, std::span<const lidar::ImuSample> imu);
 
   [[nodiscard]] Prediction predict(Time stamp, std::span<const lidar::ImuSample> imu) const;
 
   /// The motion during a scan of length `span` that ends with the lidar at `T_odom_lidar`.
   [[nodiscard]] Sweep sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
                             std::span<const lidar::ImuSample> imu) const;
-  /// The same of the first scan: only a gyroscope knows.
-  [[nodiscard]] Sweep first_sweep(Time stamp, Time span,
-                                  std::span<const lidar::ImuSample> imu) const;
+  /// The motion during the first scan: before the second one is registered, what the gyroscope
+  /// says, then the motion between the two.
+  [[nodiscard]] Sweep first_sweep(Time span) const;
+  [[nodiscard]] Sweep first_sweep(const Prediction& prediction, const SE3& T_odom_lidar,
+                                  Time span) const;
 
   void accept(const Prediction& prediction, const SE3& T_odom_lidar, const Matrix6d& covariance);
   void coast(const Prediction& prediction);
@@ -82,6 +85,8 @@ class MotionModel {
   Time registered_stamp_ = 0;
   double usual_interval_s_ = 0.1;
   SE3 T_odom_lidar_ = SE3::Identity();
+  std::optional<RotationTrack> first_rotation_;         // during the first scan
+  bool moved_ = false;                                  // whether the twist was measured
   Vector6d twist_ = Vector6d::Zero();                   // a second, in the lidar frame
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // in `odom`
   Matrix6d twist_covariance_;

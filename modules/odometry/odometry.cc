@@ -62,10 +62,11 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
 }
 
 OdometryEstimate Odometry::start(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu) {
-  const Sweep sweep = motion_.first_sweep(scan.stamp, Sweep::span_of(scan), imu);
-  motion_.start(scan.stamp, level(imu));
+  motion_.start(scan.stamp, Sweep::span_of(scan), imu);
+  const Sweep sweep = motion_.first_sweep(Sweep::span_of(scan));
   pruned_stamp_ = scan.stamp;
   started_ = true;
+  keep_first(scan);
   add_to_map(scan, sweep);
   OdometryEstimate estimate = refused(scan);
   estimate.status = OdometryStatus::ok;
@@ -106,9 +107,11 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, std::span<const lidar::ImuS
   Fit fit;
   fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
   fit.registration.T_odom_lidar = predicted;
-  const int rounds = span == 0 ? 1 : config_.deskew_rounds;
+  const int deskew_rounds = first_.points.empty() ? config_.deskew_rounds : config_.first_rounds;
+  const int rounds = span == 0 ? 1 : deskew_rounds;
   for (int round = 0; round < rounds; ++round) {
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
+    if (round > 0 && !first_.points.empty()) redo_first(prediction, T_odom_lidar);
     fit.sweep = motion_.sweep(prediction, T_odom_lidar, span, imu);
     deskew(scan, fit.sweep, registration_sample_);
     fit.registration =
@@ -148,6 +151,7 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
 }
 
 void Odometry::remember(const Prediction& prediction, const Fit& fit) {
+  first_.points.clear();
   if (fit.reason == OdometryReason::none) {
     gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
     motion_.accept(prediction, fit.registration.T_odom_lidar, fit.registration.covariance);
@@ -159,6 +163,26 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
   gate_.reset();
+}
+
+void Odometry::keep_first(const lidar::Scan& scan) {
+  first_.stamp = scan.stamp;
+  first_.span = Sweep::span_of(scan);
+  if (first_.span == 0) return;
+  for (const std::uint32_t i : map_sample_) {
+    first_.points.push_back(scan.points[i]);
+    first_.offset_ns.push_back(scan.offset_ns[i]);
+  }
+}
+
+void Odometry::redo_first(const Prediction& prediction, const SE3& T_odom_lidar) {
+  const Sweep sweep = motion_.first_sweep(prediction, T_odom_lidar, first_.span);
+  scratch_.clear();
+  for (std::size_t i = 0; i < first_.points.size(); ++i)
+    scratch_.push_back(motion_.T_odom_lidar() *
+                       sweep.deskewed(first_.points[i], first_.offset_ns[i]).cast<double>());
+  map_.clear();
+  map_.insert(scratch_, first_.stamp);
 }
 
 void Odometry::add_to_map(const lidar::Scan& scan, const Sweep& sweep) {

@@ -21,6 +21,7 @@ struct OdometryConfig {
   double map_sample_m = 0.2;
   double registration_sample_m = 0.6;
   int deskew_rounds = 2;
+  int first_rounds = 5;
   double prune_every_s = 1;
   int restart_after = 5;
   VoxelMapConfig map;
@@ -39,6 +40,8 @@ struct OdometryConfig {
             "one point a voxel of this size is registered");
     v.field("deskew_rounds", deskew_rounds, {1, 5}, "",
             "registrations of a scan with point times, each deskewed by the last one's motion");
+    v.field("first_rounds", first_rounds, {1, 20}, "",
+            "the same of the second scan, with which the first one in the map is deskewed too");
     v.field("prune_every_s", prune_every_s, {0, 60}, "s",
             "how often far and old voxels are dropped");
     v.field("restart_after", restart_after, {1, 1000}, "",
@@ -122,6 +125,9 @@ class Odometry {
                                         const Fit& fit) const;
 
   void thin(const lidar::Scan& scan);
+  void keep_first(const lidar::Scan& scan);
+  /// Puts the first scan into the map again, deskewed by the motion from it to this pose.
+  void redo_first(const Prediction& prediction, const SE3& T_odom_lidar);
   void remember(const Prediction& prediction, const Fit& fit);
   void add_to_map(const lidar::Scan& scan, const Sweep& sweep);
   /// The scan's chosen points, deskewed, in scratch_.
@@ -134,7 +140,17 @@ class Odometry {
   MotionModel motion_;
   VoxelFilter filter_;
 
+  /// The first scan's sample: nothing was known of the motion in it before the second one was
+  /// registered.
+  struct FirstScan {
+    Time stamp = 0;
+    Time span = 0;
+    std::vector<Eigen::Vector3f> points;
+    std::vector<std::int32_t> offset_ns;
+  };
+
   bool started_ = false;
+  FirstScan first_;  // emptied when it was put in again
   Time pruned_stamp_ = 0;
   int misfits_ = 0;  // scans in a row
   std::vector<std::uint32_t> map_sample_, registration_sample_;

@@ -82,7 +82,8 @@ RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
 bool Registration::trustworthy(const RegistrationResult& result, std::size_t points) const {
   return result.inliers >= config_.min_inliers &&
          result.inliers >= config_.min_inlier_ratio * static_cast<double>(points) &&
-         result.deviation_sd <= config_.max_deviation_sd && result.covariance.allFinite();
+         result.rms_m <= config_.max_rms_m && result.deviation_sd <= config_.max_deviation_sd &&
+         result.covariance.allFinite();
 }
 
 }  // namespace saker::odometry

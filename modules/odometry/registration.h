@@ -17,7 +17,8 @@ struct RegistrationConfig {
   double least_kernel_m = 0.06;
   double correlation = 8;
   int min_inliers = 60;
-  double min_inlier_ratio = 0.25;
+  double min_inlier_ratio = 0.05;
+  double max_rms_m = 0.15;
   double max_deviation_sd = 6;
 
   template <class Visitor>
@@ -36,6 +37,8 @@ struct RegistrationConfig {
             "fewer points on planes of the map: not registered");
     v.field("min_inlier_ratio", min_inlier_ratio, {0, 1}, "",
             "a smaller share of the points: not registered");
+    v.field("max_rms_m", max_rms_m, {0.01, 2}, "m",
+            "inliers farther from their planes in the mean: not registered");
     v.field("max_deviation_sd", max_deviation_sd, {1, 100}, "",
             "farther from the prediction, in its standard deviations: not registered");
   }

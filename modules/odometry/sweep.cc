@@ -9,23 +9,24 @@ void Sweep::set(int knot, const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   T_stamp_knot_[knot].col(3) = t.cast<float>();
 }
 
-Sweep Sweep::constant_twist(const Vector6d& twist, Time span) {
+Sweep Sweep::twisting(const Glide<Vector6d>& twist, Time span) {
   Sweep sweep;
   sweep.span_ = span;
   for (int k = 0; k <= kSteps; ++k) {
     const double seconds = to_seconds(span) * (static_cast<double>(k) / kSteps - 1);
-    const SE3 T = core::se3_exp(twist * seconds);
+    const SE3 T = core::se3_exp(twist.at(seconds));
     sweep.set(k, T.linear(), T.translation());
   }
   return sweep;
 }
 
-Sweep Sweep::rotating(const RotationTrack& track, const Eigen::Vector3d& velocity, Time span) {
+Sweep Sweep::rotating(const RotationTrack& track, const Glide<Eigen::Vector3d>& velocity,
+                      Time span) {
   Sweep sweep;
   sweep.span_ = span;
   for (int k = 0; k <= kSteps; ++k) {
     const double seconds = to_seconds(span) * (static_cast<double>(k) / kSteps - 1);
-    sweep.set(k, track.R_begin_end().transpose() * track.R_begin_knot[k], velocity * seconds);
+    sweep.set(k, track.R_begin_end().transpose() * track.R_begin_knot[k], velocity.at(seconds));
   }
   return sweep;
 }

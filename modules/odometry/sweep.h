@@ -10,6 +10,20 @@
 
 namespace saker::odometry {
 
+/// A rate over the interval that ends with a scan, and how fast it changes: with no change, and
+/// with any, the motion over the whole interval is mean · interval_s.
+template <class Vector>
+struct Glide {
+  Vector mean = Vector::Zero();
+  Vector change = Vector::Zero();  ///< per second
+  double interval_s = 0;
+
+  /// The motion from the stamp to a moment before it (`seconds` ≤ 0).
+  [[nodiscard]] Vector at(double seconds) const {
+    return mean * seconds + change * (0.5 * seconds * (seconds + interval_s));
+  }
+};
+
 /// How the lidar moved while a scan was taken: its pose at each moment in its own frame at the
 /// scan's stamp, and with it the way to bring a point to where it would have been measured at the
 /// stamp.
@@ -21,13 +35,12 @@ class Sweep {
   /// The lidar stood still.
   Sweep() = default;
 
-  /// A constant twist [rotation, translation] per second, in the lidar's own frame, over `span`
-  /// before the stamp.
-  static Sweep constant_twist(const Vector6d& twist, Time span);
+  /// A twist [rotation, translation] per second, in the lidar's own frame.
+  [[nodiscard]] static Sweep twisting(const Glide<Vector6d>& twist, Time span);
 
-  /// Rotation as integrated over the scan, and a constant velocity given in the lidar frame at the
-  /// stamp.
-  static Sweep rotating(const RotationTrack& track, const Eigen::Vector3d& velocity, Time span);
+  /// Rotation as integrated over the scan, and a velocity given in the lidar frame at the stamp.
+  [[nodiscard]] static Sweep rotating(const RotationTrack& track,
+                                      const Glide<Eigen::Vector3d>& velocity, Time span);
 
   [[nodiscard]] Eigen::Vector3f deskewed(const Eigen::Vector3f& point,
                                          std::int32_t offset_ns) const;
