@@ -5,13 +5,15 @@
 
 namespace saker::core {
 
-/// How long work that may stop early may go on: a number of iterations in lockstep (the same result on every machine),
-/// a deadline in real time.
+/// How long work that may stop early may go on: a number of iterations in lockstep (the same result
+/// on every machine), a deadline in real time.
 class Budget {
  public:
   using Clock = std::chrono::steady_clock;
 
-  [[nodiscard]] static Budget iterations(int count) { return Budget(count, Clock::time_point::max()); }
+  [[nodiscard]] static Budget iterations(int count) {
+    return Budget(count, Clock::time_point::max());
+  }
   [[nodiscard]] static Budget until(Clock::time_point deadline, int most_iterations) {
     return Budget(most_iterations, deadline);
   }
@@ -29,7 +31,8 @@ class Budget {
   }
 
  private:
-  Budget(int iterations, Clock::time_point deadline) : iterations_(iterations), deadline_(deadline) {}
+  Budget(int iterations, Clock::time_point deadline)
+      : iterations_(iterations), deadline_(deadline) {}
 
   int iterations_;
   Clock::time_point deadline_;

@@ -5,7 +5,8 @@
 
 namespace saker::core {
 
-/// The only source of random numbers: the same seed gives the same numbers with every compiler and library.
+/// The only source of random numbers: the same seed gives the same numbers with every compiler and
+/// library.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed);
@@ -17,7 +18,7 @@ class Rng {
   [[nodiscard]] double uniform(double low, double high);  ///< [low, high)
   [[nodiscard]] double normal();                          ///< mean 0, standard deviation 1
   [[nodiscard]] double normal(double mean, double sd);
-  [[nodiscard]] int index(int count);      ///< 0 … count − 1, count > 0
+  [[nodiscard]] int index(int count);  ///< 0 … count − 1, count > 0
   [[nodiscard]] bool chance(double probability);
 
  private:

@@ -27,9 +27,8 @@ Eigen::Matrix3d so3_left_jacobian(const Eigen::Vector3d& rotation) {
 Eigen::Matrix3d so3_left_jacobian_inverse(const Eigen::Vector3d& rotation) {
   const double angle = rotation.norm();
   const Eigen::Matrix3d w = hat(rotation);
-  const double c = angle < kSmallAngle
-                       ? 1.0 / 12 + angle * angle / 720
-                       : 1 / (angle * angle) - 0.5 / angle / std::tan(angle / 2);
+  const double c = angle < kSmallAngle ? 1.0 / 12 + angle * angle / 720
+                                       : 1 / (angle * angle) - 0.5 / angle / std::tan(angle / 2);
   return Eigen::Matrix3d::Identity() - 0.5 * w + c * w * w;
 }
 

@@ -2,7 +2,8 @@
 
 #include <Eigen/Geometry>
 
-/// Rigid motions. Tangents are [rotation, translation], perturbations act on the right: T ⊕ δ = T · exp(δ).
+/// Rigid motions. Tangents are [rotation, translation], perturbations act on the right: T ⊕ δ = T ·
+/// exp(δ).
 namespace saker {
 
 using SE3 = Eigen::Isometry3d;
