@@ -28,12 +28,17 @@ struct Frame {
 /// What a source met so far that it did not use.
 struct SourceCounters {
   int faulty_scans = 0;
-  int bad_packets = 0;       ///< of an unknown size, or with columns that do not exist
+  int bad_packets = 0;       ///< of an unknown size, or cut
+  int bad_columns = 0;       ///< that do not exist, or seconds away from their neighbours
   int late_packets = 0;      ///< of a frame that had ended
   int repeated_columns = 0;  ///< that were there already
   int missing_columns = 0;   ///< of the window, in frames between the first and the last
-  int lost_fragments = 0;    ///< datagrams of which fragments were missing
+  int lost_frames = 0;       ///< of which nothing came
+  int lost_datagrams = 0;    ///< of which fragments were missing
   std::string ended_early;   ///< why the recording ends before its end; empty when it does not
+
+  /// "12 columns missing, 3 packets late", or empty when nothing was amiss.
+  [[nodiscard]] std::string summary() const;
 };
 
 class ScanSource {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "lidar/recording.h"
+
+namespace saker::lidar {
+
+/// A folder of KITTI scans: `*.bin` in it or in `velodyne/`, by name; x, y, z, remission as floats.
+/// Times come from `times.txt` in the folder or beside it (seconds, a line a scan), else 10 Hz;
+/// points have no times of their own. A file that is no whole number of points, holds none or
+/// cannot be read is a frame with a fault.
+class KittiFolder : public ScanSource {
+ public:
+  /// Throws Error when there are no scans, or `times.txt` does not fit them.
+  explicit KittiFolder(const std::filesystem::path& folder);
+
+  [[nodiscard]] std::optional<Frame> next() override;
+  [[nodiscard]] SourceCounters counters() const override { return counters_; }
+  [[nodiscard]] int expected_scans() const override { return static_cast<int>(files_.size()); }
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  std::vector<std::filesystem::path> files_;
+  std::vector<Time> times_;
+  std::vector<float> buffer_;
+  std::size_t next_ = 0;
+  SourceCounters counters_;
+};
+
+/// True for a folder that KittiFolder can read.
+[[nodiscard]] bool is_kitti_folder(const std::filesystem::path& folder);
+
+}  // namespace saker::lidar

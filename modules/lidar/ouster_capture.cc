@@ -1,0 +1,78 @@
+#include "lidar/ouster_capture.h"
+
+#include "core/error.h"
+#include "lidar/imu_packet.h"
+#include "lidar/metadata.h"
+
+namespace saker::lidar {
+namespace {
+
+constexpr std::size_t kMostSizesKept = 4;
+
+}  // namespace
+
+OusterCapture::OusterCapture(const std::filesystem::path& capture,
+                             const std::filesystem::path& metadata, bool keep_ranges)
+    : reader_(capture), stream_(read_metadata(metadata), keep_ranges) {
+  read_until_item();
+  if (ahead_) return;
+  const SensorInfo& sensor = stream_.info();
+  throw Error(capture.string() + ": no lidar packet of " +
+              std::to_string(PacketFormat(sensor).packet_bytes()) + " bytes (" +
+              to_string(sensor.profile) + ", " + std::to_string(sensor.rows) + " rows, by " +
+              metadata.string() + "), found " + sizes_seen());
+}
+
+std::optional<Frame> OusterCapture::next() {
+  auto item = next_item();
+  if (!item) return std::nullopt;
+  return std::move(item->frame);
+}
+
+std::optional<OusterStream::Item> OusterCapture::next_item() {
+  auto item = std::move(ahead_);
+  ahead_.reset();
+  if (item) read_until_item();
+  return item;
+}
+
+void OusterCapture::read_until_item() {
+  while (!(ahead_ = stream_.take())) {
+    const auto datagram = reader_.next();
+    if (datagram) {
+      add(*datagram);
+      continue;
+    }
+    stream_.finish();
+    ahead_ = stream_.take();
+    return;
+  }
+}
+
+void OusterCapture::add(const Datagram& datagram) {
+  const std::size_t size = datagram.payload.size();
+  if (size == stream_.packet_bytes() || size == kImuPacketBytes) {
+    return stream_.add(datagram.payload);
+  }
+  if (other_sizes_.size() < kMostSizesKept || other_sizes_.contains(size)) ++other_sizes_[size];
+  const SensorInfo& sensor = stream_.info();
+  bad_packets_ += datagram.port == sensor.lidar_port || datagram.port == sensor.imu_port;
+}
+
+std::string OusterCapture::sizes_seen() const {
+  std::string sizes;
+  for (const auto& [size, count] : other_sizes_) {
+    sizes += (sizes.empty() ? "" : ", ") + std::to_string(count) + " of " + std::to_string(size);
+  }
+  return sizes.empty() ? "no other datagrams" : sizes + " bytes";
+}
+
+SourceCounters OusterCapture::counters() const {
+  SourceCounters counters = stream_.counters();
+  counters.bad_packets += bad_packets_ + reader_.cut_packets();
+  counters.lost_datagrams = reader_.lost_datagrams();
+  counters.ended_early = reader_.ended_early();
+  return counters;
+}
+
+}  // namespace saker::lidar

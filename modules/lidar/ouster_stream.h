@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lidar/recording.h"
+#include "lidar/scan_assembler.h"
+#include "lidar/sensor_info.h"
+
+namespace saker::lidar {
+
+/// One sensor's packets, lidar and inertial mixed as they arrive, to frames: the same for a capture
+/// and for sockets.
+///
+/// Packets are told apart by their size. A frame gets the inertial samples up to its stamp; later
+/// ones wait for the next frame. Samples that are not newer than the last one given out are dropped
+/// and counted.
+class OusterStream {
+ public:
+  struct Item {
+    Frame frame;
+    AssembledScan assembled;  ///< its `scan` is moved to the frame
+  };
+
+  explicit OusterStream(const SensorInfo& info, bool keep_ranges = false);
+
+  /// A UDP payload: any bytes are allowed.
+  void add(std::span<const std::uint8_t> payload);
+  void finish();
+  [[nodiscard]] std::optional<Item> take();
+
+  [[nodiscard]] SourceCounters counters() const;
+  [[nodiscard]] int late_imu_samples() const { return late_imu_samples_; }
+  [[nodiscard]] std::size_t packet_bytes() const { return assembler_.packet_bytes(); }
+  [[nodiscard]] const SensorInfo& info() const { return info_; }
+
+ private:
+  void add_imu(std::span<const std::uint8_t> payload);
+  [[nodiscard]] std::vector<ImuSample> imu_until(Time stamp);
+
+  SensorInfo info_;
+  ScanAssembler assembler_;
+  std::deque<ImuSample> imu_;  // by time; the oldest are dropped beyond the ceiling
+  Time last_imu_given_ = 0;
+  int late_imu_samples_ = 0;
+  int bad_imu_packets_ = 0;
+  int next_name_ = 0;
+};
+
+/// Six digits, as scans without a file of their own are named.
+[[nodiscard]] std::string running_name(int number);
+
+}  // namespace saker::lidar
