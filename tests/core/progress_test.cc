@@ -1,0 +1,29 @@
+#include "core/progress.h"
+
+#include <gtest/gtest.h>
+
+namespace saker::core {
+namespace {
+
+TEST(Progress, TheBarSaysShareCountAndTimeLeft) {
+  const std::string text = progress_text("replay", 50, 200, 10);
+  EXPECT_NE(text.find("25 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("50 of 200"), std::string::npos) << text;
+  EXPECT_NE(text.find("30 s left"), std::string::npos) << text;
+}
+
+TEST(Progress, WithoutATotalItCounts) {
+  EXPECT_EQ(progress_text("replay", 50, 0, 10), "replay 50, 10 s");
+}
+
+TEST(Progress, NothingIsPrintedForWhatIsShort) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("replay", 10);
+    for (int i = 0; i <= 10; ++i) progress.update(i);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace saker::core
