@@ -122,7 +122,7 @@ std::size_t keep(World& world, Mesh mesh) {
 Flora grow_flora(World& world, const Palette& palette, core::Rng& rng) {
   Flora flora;
   for (int i = 0; i < 5; ++i) {
-    const int leaves = 1200 + rng.index(4000);  // sparse to dense
+    const int leaves = 1500 + rng.index(6000);  // sparse to dense
     flora.crowns.push_back(keep(world, crown(palette, leaves, rng.uniform(0.03, 0.07), rng)));
   }
   for (int i = 0; i < 2; ++i) {
@@ -130,7 +130,7 @@ Flora grow_flora(World& world, const Palette& palette, core::Rng& rng) {
     flora.conifers.push_back(keep(world, conifer(palette, leaves, rng.uniform(0.03, 0.07), rng)));
   }
   for (int i = 0; i < 5; ++i) {
-    const int leaves = 400 + rng.index(1200);
+    const int leaves = 1500 + rng.index(3000);
     flora.bushes.push_back(keep(world, bush(palette, leaves, rng.uniform(0.05, 0.12), rng)));
   }
   for (int i = 0; i < 2; ++i) {

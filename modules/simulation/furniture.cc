@@ -45,7 +45,7 @@ void add_box(World& world, const Palette& palette, const SE3& T_world_ground, co
 void add_shelter(World& world, const Palette& palette, const SE3& T_world_ground, core::Rng& rng) {
   Pen pen(world.mesh, T_world_ground);
   const double w = rng.uniform(1.5, 2.4);
-  const MaterialId pane = world.add({kOtherStructure, 0.06F, 0.04F, 0.95F, 0.6F, 0});
+  const MaterialId pane = world.add({kOtherStructure, 0.06F, 0.04F, 0.995F, 0.5F, 0});
   pen.box({-w, -0.8, 2.3}, {w, 0.8, 2.42}, palette.structure);
   for (const double x : {-w, w}) {
     for (const double y : {-0.7, 0.7}) pen.at(0.97 * x, y, 0).post(0.05, 2.3, palette.structure, 8);

@@ -14,17 +14,22 @@ void add_background(Strips& strips, const Palette& p, core::Rng& rng) {
   for (const Strip& strip : strips) width += strip.width;
   if (width + 4 >= kReach) return;
   const double draw = rng.uniform();
-  const Use use = draw < 0.35 ? Use::lawn : draw < 0.55 ? Use::forest : Use::none;
   const MaterialId surface = rng.chance(0.75) ? p.meadow : p.yard;
-  strips.push_back({kReach - width, surface, use, 0, rng.normal(0, 0.03)});
+  const Use near = draw < 0.4 ? Use::lawn : draw < 0.75 ? Use::forest : Use::none;
+  const double open = std::min(0.7 * (kReach - width), rng.uniform(3, 40));
+  strips.push_back({open, surface, near, 0, rng.normal(0, 0.03)});
+  width += open;
+  const double end = rng.uniform();
+  const Use far = end < 0.3 ? Use::buildings : end < 0.6 ? Use::thicket : Use::forest;
+  strips.push_back({kReach - width, surface, far, 0, rng.normal(0, 0.05)});
 }
 
 void add_parking(Strips& strips, const Palette& p, core::Rng& rng) {
   const double draw = rng.uniform();
   const double kerb = rng.chance(0.2) ? 0.03 : 0;
-  if (draw < 0.62) {
+  if (draw < 0.55) {
     strips.push_back({rng.uniform(2.0, 2.5), p.parking, Use::parallel_parking, kerb, 0.02});
-  } else if (draw < 0.82) {
+  } else if (draw < 0.66) {
     strips.push_back({rng.uniform(4.8, 5.6), p.parking, Use::perpendicular_parking, kerb, 0.01});
   }
 }
@@ -46,7 +51,8 @@ Strips street_side(const Palette& p, core::Rng& rng) {
   if (rng.chance(0.7)) {
     strips.push_back({rng.uniform(2, 8), p.grass, Use::garden, 0, rng.normal(0, 0.06)});
   }
-  if (rng.chance(0.85)) strips.push_back({14, p.yard, Use::buildings, 0, 0});
+  if (rng.chance(0.25)) strips.push_back({rng.uniform(1, 6), p.meadow, Use::thicket, 0, 0});
+  if (rng.chance(0.75)) strips.push_back({14, p.yard, Use::buildings, 0, 0});
   add_background(strips, p, rng);
   return strips;
 }
@@ -67,8 +73,11 @@ Strips car_park_side(const Palette& p, core::Rng& rng) {
     strips.push_back({5, p.parking, Use::perpendicular_parking, 0, 0});
     strips.push_back({aisle, p.asphalt, Use::none, 0, 0});
   }
-  strips.push_back({rng.uniform(2, 6), p.grass, rng.chance(0.5) ? Use::verge : Use::tree_row, 0.08,
-                    rng.normal(0, 0.08)});
+  strips.push_back({rng.uniform(2, 6), p.grass,
+                    rng.chance(0.4)   ? Use::verge
+                    : rng.chance(0.5) ? Use::thicket
+                                      : Use::tree_row,
+                    0.08, rng.normal(0, 0.08)});
   if (rng.chance(0.5)) strips.push_back({0.6, p.yard, Use::barrier, 0, 0});
   if (rng.chance(0.5)) strips.push_back({14, p.yard, Use::buildings, 0, 0});
   add_background(strips, p, rng);
@@ -93,7 +102,8 @@ Strips country_side(const Palette& p, core::Rng& rng) {
   } else if (draw < 0.75) {
     strips.push_back({rng.uniform(2, 7), p.meadow, Use::verge, 0, slope});
   }
-  if (rng.chance(0.3)) strips.push_back({0.6, p.grass, Use::barrier, 0, 0});
+  if (rng.chance(0.25)) strips.push_back({0.6, p.grass, Use::barrier, 0, 0});
+  if (rng.chance(0.45)) strips.push_back({rng.uniform(2, 9), p.meadow, Use::thicket, 0, slope});
   if (rng.chance(0.4)) strips.push_back({rng.uniform(15, 30), p.meadow, Use::forest, 0, slope / 2});
   if (rng.chance(0.2)) strips.push_back({16, p.grass, Use::buildings, 0, 0});
   add_background(strips, p, rng);
@@ -111,6 +121,7 @@ Strips highway_side(const Palette& p, core::Rng& rng) {
   strips.push_back({rng.uniform(0.8, 2.8), p.asphalt, Use::none, 0, -0.02});
   if (rng.chance(0.7)) strips.push_back({0.6, p.grass, Use::barrier, 0, 0});
   strips.push_back({rng.uniform(3, 9), p.meadow, Use::verge, 0, rng.normal(0, 0.2)});
+  if (rng.chance(0.5)) strips.push_back({rng.uniform(2, 9), p.meadow, Use::thicket, 0, 0.1});
   if (rng.chance(0.6)) strips.push_back({rng.uniform(4, 20), p.meadow, Use::forest, 0, 0.05});
   add_background(strips, p, rng);
   return strips;
@@ -151,8 +162,8 @@ Strips random_side(WorldKind kind, const Palette& p, core::Rng& rng) {
 
 WorldKind any_world(core::Rng& rng) {
   const double draw = rng.uniform();
-  if (draw < 0.45) return WorldKind::street;
-  if (draw < 0.6) return WorldKind::car_park;
+  if (draw < 0.48) return WorldKind::street;
+  if (draw < 0.58) return WorldKind::car_park;
   if (draw < 0.8) return WorldKind::country;
   return draw < 0.87 ? WorldKind::highway : WorldKind::campus;
 }

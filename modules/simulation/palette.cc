@@ -33,7 +33,7 @@ void add_built(World& world, core::Rng& rng, Palette& p) {
   p.metal = world.add({kPole, around(rng, 0.25), 0.12F, 0.4F, 0, 0});
   p.sign = world.add({kTrafficSign, 0.85F, 0.15F, 0, 0, 0});
   p.lamp = world.add({kPole, around(rng, 0.3), 0.1F, 0.3F, 0.1F, 0});
-  p.glass = world.add({kBuilding, 0.05F, 0.05F, 0.97F, 0.65F, 0});
+  p.glass = world.add({kBuilding, 0.05F, 0.05F, 0.995F, 0.3F, 0});
   p.plaster = world.add({kBuilding, around(rng, 0.4), 0.08F, 0, 0, 0});
   p.concrete = world.add({kOtherStructure, around(rng, 0.35), 0.08F, 0, 0, 0});
   p.wood = world.add({kFence, around(rng, 0.33), 0.08F, 0, 0, 0});

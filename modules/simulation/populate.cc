@@ -6,7 +6,7 @@ namespace saker::simulation {
 
 Population random_population(core::Rng& rng) {
   Population p;
-  p.parked = rng.chance(0.2) ? rng.uniform(0.05, 0.3) : rng.uniform(0.35, 0.95);
+  p.parked = rng.chance(0.4) ? rng.uniform(0.05, 0.3) : rng.uniform(0.3, 0.95);
   p.traffic = rng.uniform(0, 0.25);
   p.lamp_spacing = rng.uniform(12, 35);
   p.tree_spacing = rng.uniform(5, 14);
@@ -94,6 +94,8 @@ void build(Site& site, const Lot& lot) {
       return build_forest(site, lot);
     case Use::buildings:
       return build_buildings(site, lot);
+    case Use::thicket:
+      return build_thicket(site, lot);
     case Use::barrier:
       return build_barrier(site, lot);
   }

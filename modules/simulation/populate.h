@@ -80,6 +80,7 @@ void build_lawn(Site& site, const Lot& lot);
 void build_tree_row(Site& site, const Lot& lot);
 void build_forest(Site& site, const Lot& lot);
 void build_buildings(Site& site, const Lot& lot);
+void build_thicket(Site& site, const Lot& lot);
 void build_barrier(Site& site, const Lot& lot);
 
 }  // namespace saker::simulation

@@ -53,7 +53,7 @@ void scatter_trees(Site& site, const Lot& lot, double per_100_m2) {
 
 /// A hedge along the lot at `share` of its width, with gaps for gates.
 void grow_hedge(Site& site, const Lot& lot, double share) {
-  const double height = site.rng.uniform(0.6, 2.1);
+  const double height = site.rng.uniform(0.6, 2.6);
   const double depth = site.rng.uniform(0.5, 1.1);
   for (double s = lot.from; s < lot.to; s += 1) {
     if (std::fmod(s + 1000, 14.0) < 2 || site.terrain.in_crossing(s, 1)) continue;
@@ -79,9 +79,9 @@ Fence any_garden_fence(core::Rng& rng) {
 
 void border(Site& site, const Lot& lot, double share) {
   const double draw = site.rng.uniform();
-  if (draw < 0.35) {
+  if (draw < 0.5) {
     grow_hedge(site, lot, share);
-  } else if (draw < 0.75) {
+  } else if (draw < 0.82) {
     build_fence(site, lot, share, any_garden_fence(site.rng), site.rng.uniform(0.5, 1.7));
   }
 }
@@ -136,8 +136,8 @@ void build_garden(Site& site, const Lot& lot) {
                   false, site.rng);
     }
   }
-  scatter_trees(site, lot, 0.9);
-  scatter_bushes(site, lot, 5);
+  scatter_trees(site, lot, 1.2);
+  scatter_bushes(site, lot, site.rng.uniform(2, 12));
 }
 
 void build_lawn(Site& site, const Lot& lot) {
@@ -169,6 +169,23 @@ void build_tree_row(Site& site, const Lot& lot) {
 void build_forest(Site& site, const Lot& lot) {
   scatter_trees(site, lot, site.rng.uniform(2, 5));
   scatter_bushes(site, lot, site.rng.uniform(1, 6));
+}
+
+void build_thicket(Site& site, const Lot& lot) {
+  core::Rng& rng = site.rng;
+  const double tall = rng.uniform(0.8, 4.5);
+  const double spacing = rng.uniform(0.5, 0.9);
+  const double depth = std::min(lot.strip->width, 12.0);
+  for (double s = lot.from; s < lot.to; s += spacing * std::min(tall, 2.0)) {
+    if (site.terrain.in_crossing(s, 1) || rng.chance(0.04)) continue;
+    for (double out = 0.6; out < depth; out += 1.6 * std::min(tall, 2.0)) {
+      const double height = tall * rng.uniform(0.6, 1.3);
+      const double radius = std::max(0.5, 0.55 * height) * rng.uniform(0.7, 1.2);
+      const double d = lot.side * (lot.d + out + rng.uniform(-0.4, 0.4));
+      add_bush(site.world, site.flora, site.terrain.upright(s, d), radius, height, rng);
+    }
+  }
+  scatter_trees(site, lot, 1.5);
 }
 
 void build_barrier(Site& site, const Lot& lot) {

@@ -17,6 +17,13 @@ double returned_share(const Material& m, double cosine) {
   return diffuse + highlight;
 }
 
+/// Chance that a surface sends the pulse elsewhere: glass nearly always, dark polished paint at
+/// grazing angles.
+double mirrored_away(const Material& m, double cosine) {
+  const double grazing = 1 - cosine;
+  return std::min(1.0, std::pow(m.gloss, 6) * (0.1 + grazing) + std::pow(m.gloss, 60));
+}
+
 CastScan empty_scan(int rows, int columns) {
   CastScan scan;
   scan.rows = rows;
@@ -117,6 +124,7 @@ void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, Cas
   const double cosine = std::max(0.01, static_cast<double>(shot.cosine));
   const double share = returned_share(m, cosine);
   const double reflectivity = std::clamp(m.reflectivity + rng.normal(0, m.spread), 0.005, 1.0);
+  if (rng.chance(mirrored_away(m, cosine))) return;
   const double power = reflectivity * share / (shot.distance * shot.distance);
   if (!rng.chance(1 - std::exp(-power / config_.sensitivity))) return;
 

@@ -20,6 +20,7 @@ enum class Use {
   tree_row,
   forest,
   buildings,
+  thicket,  ///< bushes grown into each other, from the ground up
   barrier,  ///< a guard rail or a wall along the strip
 };
 

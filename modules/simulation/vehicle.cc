@@ -23,14 +23,13 @@ std::uint16_t label_of(VehicleKind kind) {
 Material random_paint(std::uint16_t label, core::Rng& rng) {
   const double tone = rng.uniform();
   const double reflectivity = 0.02 + 0.75 * tone * tone * tone + 0.1 * rng.uniform();
-  return {label, static_cast<float>(reflectivity),
-          0.08F, static_cast<float>(rng.uniform(0.35, 0.75)),
-          0,     0};
+  const double gloss = rng.chance(0.25) ? rng.uniform(0.8, 0.97) : rng.uniform(0.3, 0.8);
+  return {label, static_cast<float>(reflectivity), 0.08F, static_cast<float>(gloss), 0, 0};
 }
 
 Material vehicle_glass(std::uint16_t label, core::Rng& rng) {
-  const float transmission = rng.chance(0.3) ? 0.25F : 0.7F;  // tinted or clear
-  return {label, 0.06F, 0.04F, 0.96F, transmission, 0};
+  const float transmission = static_cast<float>(rng.uniform(0.02, 0.3));  // there and back
+  return {label, 0.05F, 0.03F, 0.998F, transmission, 0};
 }
 
 void draw_wheel_pair(const VehicleShape& s, const Palette& palette, double x, const Pen& pen) {
