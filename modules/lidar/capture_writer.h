@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/files.h"
 #include "core/time.h"
-#include "lidar/output_file.h"
 
 namespace saker::lidar {
 
@@ -29,7 +29,7 @@ class CaptureWriter {
   void write_packet(Time captured, std::span<const std::uint8_t> body, std::size_t offset,
                     bool more);
 
-  OutputFile out_;
+  core::OutputFile out_;
   std::size_t fragment_bytes_;
   std::uint16_t identification_ = 0;
   std::vector<std::uint8_t> datagram_;

@@ -1,15 +1,12 @@
 #include "lidar/metadata.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/error.h"
-#include "lidar/output_file.h"
+#include "core/files.h"
 
 namespace saker::lidar {
 namespace {
@@ -242,10 +239,7 @@ Json beams_json(const SensorInfo& info) {
 }  // namespace
 
 SensorInfo read_metadata(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) throw Error("cannot read metadata " + file.string());
-  return parse_metadata(text.str(), file.string());
+  return parse_metadata(core::read_file(file), file.string());
 }
 
 SensorInfo parse_metadata(const std::string& json, const std::string& where) {
@@ -288,9 +282,7 @@ std::string metadata_json(const SensorInfo& info) {
 }
 
 void write_metadata(const SensorInfo& info, const std::filesystem::path& file) {
-  OutputFile out(file);
-  out.write(metadata_json(info));
-  out.finish();
+  core::write_file(file, metadata_json(info));
 }
 
 }  // namespace saker::lidar

@@ -70,7 +70,7 @@ std::string OusterCapture::sizes_seen() const {
 SourceCounters OusterCapture::counters() const {
   SourceCounters counters = stream_.counters();
   counters.bad_packets += bad_packets_ + reader_.cut_packets();
-  counters.lost_datagrams = reader_.lost_datagrams();
+  counters.lost_fragments = reader_.lost_datagrams();
   counters.ended_early = reader_.ended_early();
   return counters;
 }

@@ -32,7 +32,7 @@ std::string SourceCounters::summary() const {
   add(repeated_columns, "repeated columns");
   add(missing_columns, "missing columns");
   add(lost_frames, "lost frames");
-  add(lost_datagrams, "datagrams with fragments missing");
+  add(lost_fragments, "datagrams with fragments missing");
   if (!ended_early.empty()) text += (text.empty() ? "" : ", ") + ("ended early: " + ended_early);
   return text;
 }

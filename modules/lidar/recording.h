@@ -34,7 +34,7 @@ struct SourceCounters {
   int repeated_columns = 0;  ///< that were there already
   int missing_columns = 0;   ///< of the window, in frames between the first and the last
   int lost_frames = 0;       ///< of which nothing came
-  int lost_datagrams = 0;    ///< of which fragments were missing
+  int lost_fragments = 0;    ///< of which fragments were missing
   std::string ended_early;   ///< why the recording ends before its end; empty when it does not
 
   /// "12 columns missing, 3 packets late", or empty when nothing was amiss.
