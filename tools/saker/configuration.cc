@@ -1,0 +1,16 @@
+#include "saker/configuration.h"
+
+#include "core/config_io.h"
+
+namespace saker::tools {
+
+autonomy::Config read_configuration(const CommonOptions& common) {
+  return core::load_config<autonomy::Config>(common.config_file, common.settings);
+}
+
+std::string configuration_text(const autonomy::Config& config) {
+  return "# Saker's configuration. A file needs only the keys that differ from these.\n" +
+         core::config_to_yaml(config);
+}
+
+}  // namespace saker::tools
