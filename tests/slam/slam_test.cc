@@ -1,0 +1,206 @@
+#include "slam/slam.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/error.h"
+#include "made_world.h"
+#include "objects/map_io.h"
+
+namespace saker::slam {
+namespace {
+
+using namespace made;
+
+constexpr double kStepSeconds = 0.5;
+const core::Budget kPlenty = core::Budget::iterations(20);
+
+/// Drives all poses; returns the largest distance in x-y between estimated and true keyframe, and
+/// of odometry.
+struct Drive {
+  Slam slam;
+  Robot robot;
+  double worst_estimate = 0, worst_odometry = 0;
+
+  Drive(const SlamConfig& config, Robot the_robot)
+      : slam(config, {}), robot(std::move(the_robot)) {}
+
+  void along(const std::vector<SE3>& poses) {
+    std::vector<SE3> truth;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const auto input = robot.step(kStepSeconds * static_cast<double>(i), poses[i]);
+      if (slam.update(input, kPlenty).keyframe_added)
+        truth.push_back(robot.T_start().inverse() * poses[i]);
+    }
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      const Keyframe& keyframe = slam.keyframes()[k];
+      worst_estimate = std::max(
+          worst_estimate, (truth[k].translation() - keyframe.T_world_lidar.translation()).norm());
+      worst_odometry = std::max(
+          worst_odometry, (truth[k].translation() - keyframe.T_odom_lidar.translation()).norm());
+    }
+  }
+
+  /// The true object in SLAM's world.
+  [[nodiscard]] Model truth(std::size_t i) {
+    return objects::transformed(robot.T_start().inverse(), robot.world()[i].model);
+  }
+
+  /// The mapped object nearest to a true one.
+  [[nodiscard]] static const objects::MapObject* nearest(const objects::ObjectMap& map,
+                                                         const Model& model) {
+    const objects::MapObject* best = nullptr;
+    double least = 1;
+    for (const objects::MapObject& object : map.objects) {
+      const double distance =
+          (objects::place(object.model) - objects::place(model)).head<2>().norm();
+      if (distance < least) best = &object, least = distance;
+    }
+    return best;
+  }
+};
+
+TEST(Slam, MapsALoopBetterThanOdometry) {
+  Drive drive(honest_config(), Robot(ring_of_objects(20, 10), {}, 1));
+  drive.along(loop(20, 1, 2));
+  const objects::ObjectMap map = drive.slam.map();
+  ASSERT_EQ(map.objects.size(), 20U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const auto* object = Drive::nearest(map, drive.truth(i));
+    ASSERT_NE(object, nullptr) << i;
+    EXPECT_EQ(object->class_id, drive.robot.world()[i].class_id);
+    EXPECT_LT((objects::place(object->model) - objects::place(drive.truth(i))).norm(), 0.3);
+  }
+  EXPECT_GT(drive.worst_odometry, 0.5);
+  EXPECT_LT(drive.worst_estimate, 0.5 * drive.worst_odometry);
+  EXPECT_LT(drive.worst_estimate, 0.3);
+}
+
+TEST(Slam, SizesConvergeToTheTruth) {
+  Drive drive(honest_config(), Robot(ring_of_objects(20, 10), {}, 2));
+  drive.along(loop(20, 1, 2));
+  const objects::ObjectMap map = drive.slam.map();
+  for (std::size_t i = 0; i < 20; i += 2) {
+    const auto* object = Drive::nearest(map, drive.truth(i));
+    ASSERT_NE(object, nullptr);
+    const Eigen::VectorXd error = difference(object->model, drive.truth(i));
+    EXPECT_LT(error.tail<3>().norm(), 0.15) << error.transpose();
+    EXPECT_LT(error.head<3>().norm(), 0.05) << error.transpose();
+  }
+}
+
+/// Normalised estimation error squared of all objects over several worlds: the covariances say what
+/// the errors are.
+TEST(Slam, CovarianceIsConsistentWithTheErrors) {
+  double squared = 0, dimensions = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Drive drive(honest_config(), Robot(ring_of_objects(12, 5), {}, seed));
+    drive.along(loop(12, 1, 1));
+    const auto [map, marginal] = drive.slam.map_with_covariance();
+    EXPECT_TRUE(marginal);
+    for (std::size_t i = 0; i < drive.robot.world().size(); ++i) {
+      const auto* object = Drive::nearest(map, drive.truth(i));
+      ASSERT_NE(object, nullptr);
+      const Eigen::VectorXd error = difference(drive.truth(i), object->model);
+      squared += error.dot(object->covariance.llt().solve(error));
+      dimensions += static_cast<double>(error.size());
+    }
+  }
+  EXPECT_GT(squared / dimensions, 0.7);
+  EXPECT_LT(squared / dimensions, 1.3);
+}
+
+TEST(Slam, TwoRunsAreIdentical) {
+  std::string maps[2];
+  for (std::string& bytes : maps) {
+    Drive drive({}, Robot(ring_of_objects(15, 6), {}, 7));
+    drive.along(loop(15, 1));
+    bytes = objects::to_json(drive.slam.map_with_covariance().map, {});
+    for (const Keyframe& k : drive.slam.keyframes()) {
+      bytes.append(reinterpret_cast<const char*>(k.T_world_lidar.data()), 16 * sizeof(double));
+    }
+  }
+  EXPECT_EQ(maps[0], maps[1]);
+}
+
+TEST(Slam, NoBudgetLeavesThePosesWhereOdometryPutThem) {
+  Slam slam({}, {});
+  Robot robot(ring_of_objects(10, 5), {}, 3);
+  double seconds = 0;
+  for (const SE3& pose : loop(10, 1)) {
+    const SlamUpdate update =
+        slam.update(robot.step(seconds += 0.5, pose), core::Budget::iterations(0));
+    EXPECT_EQ(update.solve.iterations, 0);
+  }
+  for (const Keyframe& k : slam.keyframes()) {
+    EXPECT_TRUE(k.T_world_lidar.isApprox(k.T_odom_lidar, 1e-9));
+  }
+}
+
+TEST(Slam, CorrectedPosesPassThroughTheKeyframes) {
+  Drive drive(honest_config(), Robot(ring_of_objects(15, 6), {}, 4));
+  drive.along(loop(15, 1));
+  const auto& keyframes = drive.slam.keyframes();
+  for (const Keyframe& k : keyframes) {
+    EXPECT_TRUE(drive.slam.corrected(k.stamp, k.T_odom_lidar).isApprox(k.T_world_lidar, 1e-9));
+  }
+  const Keyframe &a = keyframes[3], &b = keyframes[4];
+  const SE3 nearly_b = drive.slam.corrected(b.stamp - 1, b.T_odom_lidar);
+  EXPECT_LT((nearly_b.translation() - b.T_world_lidar.translation()).norm(), 1e-6);
+  const SE3 nearly_a = drive.slam.corrected(a.stamp + 1, a.T_odom_lidar);
+  EXPECT_LT((nearly_a.translation() - a.T_world_lidar.translation()).norm(), 1e-6);
+}
+
+TEST(Slam, RefusesOldAndInvalidInputsUnchanged) {
+  Slam slam({}, {});
+  Robot robot(ring_of_objects(10, 5), {}, 5);
+  const SlamInput input = robot.step(1, flat_pose(10, 0, 1, 0));
+  EXPECT_EQ(slam.update(input, kPlenty).status, SlamStatus::updated);
+  EXPECT_EQ(slam.update(input, kPlenty).status, SlamStatus::old_input);
+  SlamInput broken = robot.step(2, flat_pose(12, 0, 1, 0));
+  broken.T_odom_lidar.translation().x() = NAN;
+  EXPECT_EQ(slam.update(broken, kPlenty).status, SlamStatus::invalid_input);
+  EXPECT_EQ(slam.keyframes().size(), 1U);
+}
+
+TEST(Slam, CountsMeasurementsThatAreNotUsable) {
+  Slam slam({}, {});
+  Robot robot({{car(5, 0, 0), kVehicle}}, {}, 6);
+  SlamInput input = robot.step(1, flat_pose(0, 0, 1, 0));
+  input.detections.measurements.push_back(input.detections.measurements[0]);
+  input.detections.measurements[1].covariance.setConstant(NAN);
+  input.detections.measurements.push_back(input.detections.measurements[0]);
+  input.detections.measurements[2].class_probability.clear();
+  const SlamUpdate update = slam.update(input, kPlenty);
+  EXPECT_EQ(update.refused, 2);
+  EXPECT_EQ(update.created, 1);
+}
+
+TEST(Slam, KeepsWithinItsCeilings) {
+  SlamConfig config;
+  config.keyframes.most = 20;
+  config.landmarks.most = 6;
+  config.ground.most_cells = 5;
+  Drive drive(config, Robot(ring_of_objects(20, 10), {}, 1));
+  double seconds = 0;
+  for (const SE3& pose : loop(20, 1))
+    (void)drive.slam.update(drive.robot.step(seconds += 0.5, pose), kPlenty);
+  EXPECT_LE(drive.slam.keyframes().size(), 20U);
+  EXPECT_LE(drive.slam.map().objects.size(), 6U);
+  EXPECT_LE(drive.slam.map().ground.size(), 5U);
+}
+
+TEST(Slam, WrongConfigurationIsNamed) {
+  SlamConfig config;
+  config.keyframes.distance_m = -1;
+  try {
+    const Slam slam(config, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("slam.keyframes.distance_m"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace saker::slam
