@@ -1,158 +1,121 @@
 #include "simulation/flight_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
-
-#include "core/error.h"
 
 namespace saker::simulation {
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kStep =
-    1e-3;  // s, of the differences: far below the spline's knots, far above rounding
-constexpr std::array<double, 3> kSwayHz = {0.23, 0.31, 0.17};
-constexpr std::array<double, 3> kVibrationHz = {7.3, 11.1, 12.7};
+constexpr double kGravity = 9.80665;
+constexpr double kHover = 1.5;  ///< s of standing still at both ends
+constexpr double kRamp = 2.5;   ///< s from standing still to cruise
+constexpr double kDegree = std::numbers::pi / 180;
 
-/// Way flown after t of a ramp up to `speed`, cruise and ramp down over `length`; and how long it
-/// all takes.
-struct SpeedProfile {
-  double speed, ramp, length;
-
-  SpeedProfile(double cruise, double ramp_s, double way)
-      : speed(cruise), ramp(ramp_s), length(way) {
-    speed = std::min(speed, length / ramp);  // too short to reach the cruise speed
-  }
-  [[nodiscard]] double duration() const { return length / speed + ramp; }
-  [[nodiscard]] double way(double t) const {
-    if (t < ramp) return 0.5 * speed * t * t / ramp;
-    if (t < duration() - ramp) return speed * (t - 0.5 * ramp);
-    const double left = std::max(duration() - t, 0.0);
-    return length - 0.5 * speed * left * left / ramp;
-  }
-};
-
-std::vector<Eigen::Vector4d> unwrapped(const std::vector<Waypoint>& waypoints) {
-  std::vector<Eigen::Vector4d> rows;
-  double yaw = waypoints.front().yaw;
-  for (const Waypoint& w : waypoints) {
-    yaw += std::remainder(w.yaw - yaw, 2 * std::numbers::pi);
-    rows.emplace_back(w.position.x(), w.position.y(), w.position.z(), yaw);
-  }
-  return rows;
+/// From 0 to 1 with two continuous derivatives.
+double smooth_step(double x) {
+  const double u = std::clamp(x, 0.0, 1.0);
+  return u * u * u * (u * (6 * u - 15) + 10);
 }
 
-/// The polyline's point after `way` metres.
-Eigen::Vector4d along(const std::vector<Eigen::Vector4d>& rows, double way) {
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double leg = (rows[i] - rows[i - 1]).head<3>().norm();
-    if (way <= leg) return rows[i - 1] + (rows[i] - rows[i - 1]) * (leg > 0 ? way / leg : 0);
-    way -= leg;
-  }
-  return rows.back();
-}
-
-double length_of(const std::vector<Eigen::Vector4d>& rows) {
-  double length = 0;
-  for (std::size_t i = 1; i < rows.size(); ++i) length += (rows[i] - rows[i - 1]).head<3>().norm();
-  return length;
+/// Its integral from 0.
+double smooth_step_integral(double x) {
+  const double u = std::clamp(x, 0.0, 1.0);
+  return u * u * u * u * (u * u - 3 * u + 2.5) + std::max(0.0, x - 1);
 }
 
 }  // namespace
 
-FlightPath::FlightPath(const FlightPathConfig& config, const std::vector<Waypoint>& waypoints,
-                       core::Rng rng)
-    : config_(core::checked(config, "flight_path")) {
-  if (waypoints.size() < 2) throw Error("flight path: one waypoint, expected at least two");
-  const auto rows = unwrapped(waypoints);
-  const double length = length_of(rows);
-  if (length <= 0) throw Error("flight path: all waypoints are one point, expected a way to fly");
-  const SpeedProfile profile(config_.speed_m_s, config_.ramp_s, length);
-  const int count = static_cast<int>(std::ceil(profile.duration() / config_.knot_s)) + 1;
-  knots_.assign(2, rows.front());  // doubled ends: the spline starts and ends at rest
-  for (int i = 0; i < count; ++i) knots_.push_back(along(rows, profile.way(i * config_.knot_s)));
-  knots_.insert(knots_.end(), 2, rows.back());
-  for (double& phase : phases_) phase = rng.uniform(0, 2 * std::numbers::pi);
+double FlightPath::Swing::at(double t) const {
+  return amplitude * std::sin(2 * std::numbers::pi * t / period + phase);
 }
 
-double FlightPath::duration() const {
-  return static_cast<double>(knots_.size() - 3) * config_.knot_s;
+FlightPath::FlightPath(const FlightConfig& config, const Terrain& terrain, core::Rng& rng)
+    : config_(config), terrain_(&terrain) {
+  const auto swing = [&](double amplitude, double shortest, double longest) {
+    const double period = rng.uniform(shortest, longest);
+    return Swing{amplitude, period, rng.uniform(0, 2 * std::numbers::pi)};
+  };
+  sway_ = swing(config.sway_m, 11, 17);
+  rise_ = swing(config.height_swing_m, 12, 20);
+  look_ = swing(config.look_around_deg * kDegree, 9, 15);
+  roll_ = swing(config.vibration_deg * kDegree, 0.08, 0.12);
+  pitch_ = swing(config.vibration_deg * kDegree, 0.08, 0.12);
+  start_s_ = -travelled(config.duration_s) / 2;
+  base_z_ = terrain.height(start_s_, 0) - terrain.shape().grade * start_s_;
 }
 
-Eigen::Vector4d FlightPath::spline(double t) const {
-  const double u = std::clamp(t / config_.knot_s, 0.0, static_cast<double>(knots_.size() - 3));
-  const auto i = std::min(static_cast<std::size_t>(u), knots_.size() - 4);
-  const double s = u - static_cast<double>(i), s2 = s * s, s3 = s2 * s;
-  return (knots_[i] * (1 - 3 * s + 3 * s2 - s3) + knots_[i + 1] * (4 - 6 * s2 + 3 * s3) +
-          knots_[i + 2] * (1 + 3 * s + 3 * s2 - 3 * s3) + knots_[i + 3] * s3) /
-         6;
+double FlightPath::travelled(double t) const {
+  const double ramp = std::min(kRamp, std::max(0.1, config_.duration_s / 2 - kHover));
+  const double stop = std::max(config_.duration_s - kHover - ramp, kHover);
+  return config_.speed_mps * ramp *
+         (smooth_step_integral((t - kHover) / ramp) - smooth_step_integral((t - stop) / ramp));
 }
+
+double FlightPath::envelope(double t) const { return smooth_step((t - kHover) / 4); }
 
 Eigen::Vector3d FlightPath::position(double t) const {
-  Eigen::Vector3d p = spline(t).head<3>();
-  for (int axis = 0; axis < 3; ++axis) {
-    p[axis] += config_.sway_m * std::sin(2 * std::numbers::pi * kSwayHz[axis] * t + phases_[axis]);
-  }
+  const double s = start_s_ + travelled(t);
+  Eigen::Vector3d p = terrain_->point(s, envelope(t) * sway_.at(t));
+  p.z() = base_z_ + terrain_->shape().grade * s + config_.height_m + envelope(t) * rise_.at(t);
   return p;
 }
 
-Eigen::Vector3d FlightPath::acceleration(double t) const {
-  constexpr double kWide = 0.02;  // s: a second difference needs a longer step
-  return (position(t + kWide) - 2 * position(t) + position(t - kWide)) / (kWide * kWide);
+double FlightPath::heading(double t) const {
+  return terrain_->heading(start_s_ + travelled(t)) + envelope(t) * look_.at(t);
 }
 
-SE3 FlightPath::T_world_body(double t) const {
-  const Eigen::Vector3d thrust = acceleration(t) + kGravity * Eigen::Vector3d::UnitZ();
-  const double yaw = spline(t)[3];
+SE3 FlightPath::pose(double t) const {
+  constexpr double kStep = 0.01;
+  const Eigen::Vector3d p = position(t);
+  const Eigen::Vector3d before = position(t - kStep);
+  const Eigen::Vector3d after = position(t + kStep);
+  const Eigen::Vector3d acceleration = (after - 2 * p + before) / (kStep * kStep);
+  const Eigen::Vector3d drag = 0.15 * (after - before) / (2 * kStep);
+  const Eigen::Vector3d thrust = acceleration + drag + kGravity * Eigen::Vector3d::UnitZ();
+  const double turn = heading(t);
   const Eigen::Vector3d z = thrust.normalized();
-  const Eigen::Vector3d y = z.cross(Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0)).normalized();
-  Eigen::Vector3d wobble;
-  for (int axis = 0; axis < 3; ++axis) {
-    wobble[axis] = config_.vibration_deg * std::numbers::pi / 180 *
-                   std::sin(2 * std::numbers::pi * kVibrationHz[axis] * t + phases_[3 + axis]);
-  }
+  const Eigen::Vector3d y =
+      z.cross(Eigen::Vector3d(std::cos(turn), std::sin(turn), 0)).normalized();
   SE3 T = SE3::Identity();
   T.linear() << y.cross(z), y, z;
-  T.linear() *= core::so3_exp(wobble);
-  T.translation() = position(t);
+  T.linear() = T.linear() * core::so3_exp({roll_.at(t), pitch_.at(t), 0});
+  T.translation() = p;
   return T;
 }
 
-Eigen::Vector3d FlightPath::angular_velocity(double t) const {
-  const Eigen::Matrix3d before = T_world_body(t - kStep).linear();
-  const Eigen::Matrix3d after = T_world_body(t + kStep).linear();
-  return core::so3_log(before.transpose() * after) / (2 * kStep);
-}
-
-namespace {
-
-Eigen::Vector3d normal3(core::Rng& rng, double sd) {
-  return {rng.normal(0, sd), rng.normal(0, sd), rng.normal(0, sd)};
-}
-
-/// What the unit feels: the second derivative of the body's whole motion.
-Eigen::Vector3d specific_force(const FlightPath& path, double t) {
-  const Eigen::Vector3d in_world = path.acceleration(t) + kGravity * Eigen::Vector3d::UnitZ();
-  return path.T_world_body(t).linear().transpose() * in_world;
-}
-
-}  // namespace
-
-std::vector<ImuReading> read_imu(const ImuConfig& config, const FlightPath& path, core::Rng rng) {
-  const ImuConfig c = core::checked(config, "imu");
-  const double period = 1 / c.rate_hz, root_rate = std::sqrt(c.rate_hz);
-  const Eigen::Vector3d accelerometer_bias = normal3(rng, c.accelerometer_bias);
-  Eigen::Vector3d gyro_bias = normal3(rng, c.gyro_bias);
-  std::vector<ImuReading> readings;
-  for (double t = 0; t <= path.duration(); t += period) {
-    gyro_bias += normal3(rng, c.gyro_bias_walk * std::sqrt(period));
-    readings.push_back(
-        {t,
-         specific_force(path, t) + accelerometer_bias +
-             normal3(rng, c.accelerometer_noise * root_rate),
-         path.angular_velocity(t) + gyro_bias + normal3(rng, c.gyro_noise * root_rate)});
+std::vector<lidar::ImuSample> simulate_imu(const FlightPath& path, const ImuConfig& config,
+                                           const SE3& T_lidar_imu, double duration_s, Time start,
+                                           core::Rng& rng) {
+  constexpr double kStep = 1e-3;
+  const auto noise = [&](double sd) {
+    const double x = rng.normal(0, sd);
+    const double y = rng.normal(0, sd);
+    return Eigen::Vector3d(x, y, rng.normal(0, sd));
+  };
+  const Eigen::Vector3d acceleration_bias = noise(config.acceleration_bias);
+  const Eigen::Vector3d rotation_bias = noise(config.rotation_bias);
+  const int count = static_cast<int>(duration_s * config.rate_hz);
+  std::vector<lidar::ImuSample> samples;
+  for (int i = 0; i < count; ++i) {
+    const double t = i / config.rate_hz;
+    const SE3 before = path.pose(t - kStep) * T_lidar_imu;
+    const SE3 now = path.pose(t) * T_lidar_imu;
+    const SE3 after = path.pose(t + kStep) * T_lidar_imu;
+    const Eigen::Vector3d acceleration =
+        (after.translation() - 2 * now.translation() + before.translation()) / (kStep * kStep);
+    lidar::ImuSample sample;
+    sample.stamp = start + from_seconds(t);
+    sample.acceleration =
+        path.pose(t).linear().transpose() * (acceleration + kGravity * Eigen::Vector3d::UnitZ()) +
+        acceleration_bias + noise(config.acceleration_noise);
+    const Eigen::Matrix3d turn = T_lidar_imu.linear() * before.linear().transpose() *
+                                 after.linear() * T_lidar_imu.linear().transpose();
+    sample.angular_velocity =
+        core::so3_log(turn) / (2 * kStep) + rotation_bias + noise(config.rotation_noise);
+    samples.push_back(sample);
   }
-  return readings;
+  return samples;
 }
 
 }  // namespace saker::simulation

@@ -130,13 +130,12 @@ void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, Cas
 
   const double before = std::min(0.7, std::abs(rng.normal(0, m.depth)) / std::max(cosine, 0.05));
   const double sd = config_.noise_m + config_.noise_per_m * shot.distance;
-  const double distance = shot.distance - before + rng.normal(beam_bias_[row], sd);
-  const double range = distance + beams_.range_offset_m;
+  const double range = shot.distance - before + rng.normal(beam_bias_[row], sd);
   if (!(range >= config_.min_range_m && range <= config_.max_range_m)) return;
 
   const std::size_t i = beams_.index(row, column);
   scan.range_m[i] = static_cast<float>(range);
-  scan.points[i] = beams_.origins[i] + static_cast<float>(distance) * beams_.directions[i];
+  scan.points[i] = beams_.origins[i] + static_cast<float>(range) * beams_.directions[i];
   const double seen = reflectivity * std::min(1.0, share / std::pow(cosine, 0.7));
   scan.reflectivity[i] = static_cast<float>(std::round(100 * std::clamp(seen, 0.0, 0.99)) / 100);
   scan.labels[i] = m.label;

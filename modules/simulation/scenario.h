@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/config.h"
+#include "lidar/sensor_info.h"
 #include "simulation/layout.h"
+#include "simulation/scanner.h"
 
 namespace saker::simulation {
 
@@ -20,14 +22,92 @@ struct TrainingConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("world", world, "",
-            "kind of world: mixed, street, car_park, country, highway or campus");
+    v.field("world", world, "", "mixed, street, car_park, country, highway or campus");
     v.field("worlds", worlds, {1, 100000}, "", "worlds, each built anew");
     v.field("scans_per_world", scans_per_world, {1, 1000}, "",
             "scans of each world, from other places and heights");
-    v.field(
-        "hdl64_share", hdl64_share, {0, 1}, "",
-        "share of scans of an HDL-64E on a car; the others are an OS1-64's at 0.8 to 12 m, tilted");
+    v.field("hdl64_share", hdl64_share, {0, 1}, "",
+            "share of scans of an HDL-64E on a car; the others are an OS1-64's at 0.8 to 12 m");
+  }
+};
+
+/// The Ouster sensor, and what the network does to its packets.
+struct CaptureConfig {
+  std::string profile = "RNG19_RFL8_SIG16_NIR16";
+  int rows = 64;
+  int columns = 1024;
+  int window_first = -1;
+  int window_last = -1;
+  double lost_share = 0;
+  double repeated_share = 0;
+  double late_share = 0;
+  int mtu = 1500;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("profile", profile, "", "layout of the packets, as in the vendor's metadata");
+    v.field("rows", rows, {16, 128}, "", "beams: 16, 32, 64 or 128");
+    v.field("columns", columns, {512, 2048}, "", "of a revolution: 512, 1024 or 2048");
+    v.field("window_first", window_first, {-1, 2047}, "", "first column that is sent; -1: all");
+    v.field("window_last", window_last, {-1, 2047}, "",
+            "last column that is sent; before the first: the window wraps");
+    v.field("lost_share", lost_share, {0, 1}, "", "of the packets that never come");
+    v.field("repeated_share", repeated_share, {0, 1}, "", "of the packets that come twice");
+    v.field("late_share", late_share, {0, 1}, "", "of the packets that are overtaken by others");
+    v.field("mtu", mtu, {576, 65535}, "byte", "larger datagrams travel in fragments");
+  }
+};
+
+struct ImuConfig {
+  double rate_hz = 100;
+  double acceleration_noise = 0.02;
+  double rotation_noise = 0.002;
+  double acceleration_bias = 0.05;
+  double rotation_bias = 0.004;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("rate_hz", rate_hz, {10, 1000}, "Hz", "samples: an OS1 sends 100 a second");
+    v.field("acceleration_noise", acceleration_noise, {0, 5}, "m/s²", "sd of a sample");
+    v.field("rotation_noise", rotation_noise, {0, 1}, "rad/s", "sd of a sample");
+    v.field("acceleration_bias", acceleration_bias, {0, 5}, "m/s²", "sd of the constant error");
+    v.field("rotation_bias", rotation_bias, {0, 1}, "rad/s", "sd of the constant error");
+  }
+};
+
+/// One flight along a street with a car park beside it.
+struct FlightConfig {
+  double duration_s = 40;
+  double speed_mps = 2.0;
+  double height_m = 3.4;
+  double height_swing_m = 0.8;
+  double sway_m = 1.2;
+  double look_around_deg = 15;
+  double vibration_deg = 0.15;
+  double parked_share = 0.5;
+  int moving_vehicles = 0;
+  bool labels = false;
+  bool cast = false;
+  CaptureConfig capture;
+  ImuConfig imu;
+  ReceiverConfig receiver;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("duration_s", duration_s, {0.2, 600}, "s", "from hovering to hovering");
+    v.field("speed_mps", speed_mps, {0.1, 15}, "m/s", "cruise along the street");
+    v.field("height_m", height_m, {0.5, 60}, "m", "mean height over the street");
+    v.field("height_swing_m", height_swing_m, {0, 20}, "m", "amplitude of the changes of height");
+    v.field("sway_m", sway_m, {0, 10}, "m", "amplitude of the sideways changes");
+    v.field("look_around_deg", look_around_deg, {0, 180}, "°", "amplitude of the turns about z");
+    v.field("vibration_deg", vibration_deg, {0, 5}, "°", "amplitude of the rotors' shaking");
+    v.field("parked_share", parked_share, {0, 1}, "", "of the parking places that are taken");
+    v.field("moving_vehicles", moving_vehicles, {0, 20}, "", "that drive along; in no map");
+    v.field("labels", labels, "", "whether the scans are written labelled, too");
+    v.field("cast", cast, "", "whether the ranges as sent are written: OUT/cast/NNNNNN.npy");
+    v.group("capture", capture, "the sensor and its packets");
+    v.group("imu", imu, "the inertial unit");
+    v.group("receiver", receiver, "how the sensor answers");
   }
 };
 
@@ -35,12 +115,13 @@ struct TrainingConfig {
 struct Scenario {
   ScenarioKind kind = ScenarioKind::training;
   TrainingConfig training;
+  FlightConfig flight;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("kind", kind, "",
-            "training: labelled scans of many worlds; flight: one flight through one world");
+    v.field("kind", kind, "", "training: scans of many worlds; flight: one through one world");
     v.group("training", training, "many worlds");
+    v.group("flight", flight, "one flight");
   }
 };
 

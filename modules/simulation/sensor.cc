@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lidar/ray_table.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -16,23 +18,14 @@ Eigen::Vector3d direction(double azimuth, double elevation) {
 }  // namespace
 
 BeamTable ouster_beams(const lidar::SensorInfo& info) {
+  const lidar::RayTable rays(info);
   BeamTable table;
   table.rows = info.rows;
   table.columns = info.columns;
-  table.period_s = 1 / info.frame_rate_hz;
-  table.range_offset_m = static_cast<float>(info.beam_origin_m);
   for (int row = 0; row < info.rows; ++row) {
-    const double elevation = info.beam_altitude_deg[row] * kDegree;
     for (int column = 0; column < info.columns; ++column) {
-      const double encoder =
-          2 * std::numbers::pi * (1 - static_cast<double>(column) / info.columns);
-      const double azimuth = encoder - info.beam_azimuth_deg[row] * kDegree;
-      const Eigen::Vector3d origin(info.beam_origin_m * std::cos(encoder),
-                                   info.beam_origin_m * std::sin(encoder),
-                                   info.beam_origin_height_m);
-      table.origins.push_back((info.T_sensor_lidar * origin).cast<float>());
-      table.directions.push_back(
-          (info.T_sensor_lidar.linear() * direction(azimuth, elevation)).cast<float>());
+      table.origins.push_back(rays.ray(row, column).origin);
+      table.directions.push_back(rays.ray(row, column).direction);
     }
   }
   return table;

@@ -13,10 +13,8 @@ namespace saker::simulation {
 struct BeamTable {
   int rows = 0;
   int columns = 0;
-  double period_s = 0.1;                    ///< of a revolution
-  std::vector<Eigen::Vector3f> origins;     ///< row-major, rows × columns
+  std::vector<Eigen::Vector3f> origins;     ///< of range 0; row-major, rows × columns
   std::vector<Eigen::Vector3f> directions;  ///< unit
-  float range_offset_m = 0;  ///< what the sensor adds to the distance from the beam's origin
 
   [[nodiscard]] std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * columns + column;

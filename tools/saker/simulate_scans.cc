@@ -1,8 +1,10 @@
-#include "core/error.h"
+#include <optional>
+
+#include "core/config_io.h"
 #include "core/progress.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
-#include "simulation/scenario_file.h"
+#include "simulation/flight.h"
 #include "simulation/training.h"
 
 namespace saker::tools {
@@ -13,12 +15,18 @@ struct SimulateOptions {
 };
 
 int simulate_scans(const SimulateOptions& options, const CommonOptions& common) {
-  const simulation::Scenario scenario = simulation::load_scenario(options.scenario);
+  const auto scenario = core::load_config<simulation::Scenario>(options.scenario, common.settings);
   const OutputFolder out(common);
-  const int total = scenario.training.worlds * scenario.training.scans_per_world;
-  core::Progress progress("simulate-scans", total);
-  simulation::write_training_scans(scenario.training, common.seed, out.path(),
-                                   [&](int done, int) { progress.update(done); });
+  std::optional<core::Progress> bar;
+  const auto progress = [&](int done, int total) {
+    if (!bar) bar.emplace("simulate-scans", total);
+    bar->update(done);
+  };
+  if (scenario.kind == simulation::ScenarioKind::flight) {
+    simulation::write_flight(scenario.flight, common.seed, out.path(), progress);
+  } else {
+    simulation::write_training_scans(scenario.training, common.seed, out.path(), progress);
+  }
   return 0;
 }
 

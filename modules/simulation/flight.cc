@@ -1,0 +1,134 @@
+#include "simulation/flight.h"
+
+#include <cstdio>
+
+#include "core/files.h"
+#include "objects/map_io.h"
+#include "simulation/capture_files.h"
+#include "simulation/scan_files.h"
+
+namespace saker::simulation {
+namespace {
+
+constexpr Time kStart = 1000 * kNanosecondsPerSecond;  ///< of the sensor's clock
+constexpr double kScanPeriod = 0.1;
+
+/// Turns with the lidar about z only; at its place.
+SE3 levelled(const SE3& T) {
+  const Eigen::Vector3d& p = T.translation();
+  return placed(p.x(), p.y(), p.z(), core::yaw(T.linear()));
+}
+
+void append_pose(std::string& rows, Time stamp, const SE3& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const Eigen::Vector3d& p = T.translation();
+  char line[256];
+  std::snprintf(line, sizeof(line), "%.9f %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n", to_seconds(stamp),
+                p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  rows += line;
+}
+
+/// The objects that belong in a map, seen from `world`, each with the number of returns that hit
+/// it.
+objects::ObjectMap truth_map(const World& world, const SE3& T_world_sim,
+                             const std::vector<int>& hits) {
+  const objects::ClassTable table;
+  objects::ObjectMap map;
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    const TrueObject& object = world.objects[i];
+    if (object.moving) continue;
+    objects::MapObject entry;
+    entry.id = static_cast<int>(i + 1);
+    entry.class_id = table.find(object.class_name);
+    entry.class_probability.assign(table.size(), 0);
+    entry.class_probability[entry.class_id] = 1;
+    entry.model = objects::transformed(T_world_sim, object.model);
+    entry.points = hits[i + 1];
+    map.objects.push_back(std::move(entry));
+  }
+  return map;
+}
+
+/// A flight under way: what is written scan by scan.
+class Recorder {
+ public:
+  Recorder(const FlightConfig& config, std::uint64_t seed, const std::filesystem::path& folder)
+      : config_(config), folder_(folder), capture_(folder, "flight", config.capture, seed) {
+    if (config.labels) labels_ = std::make_unique<LabelledScanWriter>(folder);
+    if (config.cast) std::filesystem::create_directories(folder / "cast");
+  }
+
+  void record(const CastScan& scan, int index, const SE3& T_world_lidar, Time start, Time stamp,
+              std::span<const lidar::ImuSample> imu) {
+    const SensorCapture::Ranges sent = capture_.write(scan, index + 1, start, imu);
+    append_pose(trajectory_, stamp, T_world_lidar);
+    if (labels_) labels_->write(scan, T_world_lidar, stamp);
+    if (!config_.cast) return;
+    char name[16];
+    std::snprintf(name, sizeof(name), "%06d.npy", index);
+    core::write_npy(folder_ / "cast" / name, sent, scan.rows, scan.columns);
+  }
+
+  void finish() {
+    capture_.finish();
+    if (labels_) labels_->finish();
+    core::write_file(folder_ / "trajectory_truth.txt", trajectory_);
+  }
+
+  [[nodiscard]] const lidar::SensorInfo& info() const { return capture_.info(); }
+
+ private:
+  FlightConfig config_;
+  std::filesystem::path folder_;
+  SensorCapture capture_;
+  std::unique_ptr<LabelledScanWriter> labels_;
+  std::string trajectory_;
+};
+
+std::span<const lidar::ImuSample> samples_in(const std::vector<lidar::ImuSample>& samples,
+                                             Time from, Time to) {
+  const auto before = [](const lidar::ImuSample& sample, Time time) { return sample.stamp < time; };
+  const auto first = std::lower_bound(samples.begin(), samples.end(), from, before);
+  const auto last = std::lower_bound(first, samples.end(), to, before);
+  return {first, last};
+}
+
+}  // namespace
+
+void write_flight(const FlightConfig& config, std::uint64_t seed,
+                  const std::filesystem::path& folder,
+                  const std::function<void(int done, int total)>& progress) {
+  const FlightConfig c = core::checked(config, "flight");
+  const core::Rng base(seed);
+  core::Rng path_rng = base.fork(10);
+  core::Rng imu_rng = base.fork(11);
+  const BuiltWorld built = build_flight_world(c, seed);
+  const RayCaster caster(built.world);
+  const FlightPath path(c, built.terrain, path_rng);
+  Recorder recorder(c, seed, folder);
+  const lidar::SensorInfo& info = recorder.info();
+  const Scanner scanner(caster, built.world, ouster_beams(info), c.receiver, seed);
+  const std::vector<lidar::ImuSample> imu =
+      simulate_imu(path, c.imu, info.T_sensor_imu, c.duration_s, kStart, imu_rng);
+
+  const double last_column = info.column_window.last * info.column_period_s();
+  const SE3 T_world_sim = levelled(path.pose(last_column)).inverse();
+  std::vector<int> hits(built.world.objects.size() + 1, 0);
+  const int scans = static_cast<int>(c.duration_s / kScanPeriod);
+  for (int i = 0; i < scans; ++i) {
+    const double t = i * kScanPeriod;
+    const CastScan scan =
+        scanner.cast([&](int column) { return path.pose(t + column * info.column_period_s()); }, i);
+    for (std::size_t k = 0; k < scan.objects.size(); ++k)
+      hits[scan.objects[k]] += scan.range_m[k] > 0;
+    const Time start = kStart + from_seconds(t);
+    recorder.record(scan, i, T_world_sim * path.pose(t + last_column), start,
+                    start + from_seconds(last_column),
+                    samples_in(imu, start, start + from_seconds(kScanPeriod)));
+    if (progress) progress(i + 1, scans);
+  }
+  recorder.finish();
+  objects::write_map(folder / "truth.json", truth_map(built.world, T_world_sim, hits), {});
+}
+
+}  // namespace saker::simulation

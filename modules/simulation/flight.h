@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "simulation/flight_path.h"
+#include "simulation/world_builder.h"
+
+namespace saker::simulation {
+
+/// A street with a car park beside it, for a flight: all five kinds of cars, trees and lamps along
+/// it.
+[[nodiscard]] BuiltWorld build_flight_world(const FlightConfig& config, std::uint64_t seed);
+
+/// One flight into the folder: flight.pcap and flight.json (the capture), truth.json (objects in
+/// the `world` frame: the levelled lidar frame at the first scan's stamp), trajectory_truth.txt
+/// (TUM rows, T_world_lidar at each scan's stamp); as configured the labelled scans (not corrected
+/// for motion) and the ranges as sent. A function of config and seed.
+void write_flight(const FlightConfig& config, std::uint64_t seed,
+                  const std::filesystem::path& folder,
+                  const std::function<void(int done, int total)>& progress);
+
+}  // namespace saker::simulation

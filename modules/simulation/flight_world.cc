@@ -1,0 +1,63 @@
+#include "simulation/flight.h"
+
+namespace saker::simulation {
+namespace {
+
+/// The street's side: parked along the kerb, lamps and trees on the sidewalk, houses behind
+/// gardens.
+std::vector<Strip> street(const Palette& p, core::Rng& rng) {
+  return {{rng.uniform(3, 3.6), p.asphalt, Use::none, 0, -0.02},
+          {rng.uniform(2.1, 2.4), p.parking, Use::parallel_parking, 0, 0.02},
+          {rng.uniform(2, 3), p.paving, Use::sidewalk, 0.12, 0.02},
+          {rng.uniform(3, 6), p.grass, Use::garden, 0, 0.02},
+          {14, p.yard, Use::buildings, 0, 0},
+          {30, p.meadow, Use::forest, 0, 0}};
+}
+
+/// The car park's side: a verge with trees, two rows of cars about an aisle, an edge of trees.
+std::vector<Strip> car_park(const Palette& p, core::Rng& rng) {
+  return {{rng.uniform(3, 3.6), p.asphalt, Use::none, 0, -0.02},
+          {rng.uniform(1.8, 2.6), p.grass, Use::island, 0.1, 0.01},
+          {5.2, p.parking, Use::perpendicular_parking, 0, 0},
+          {rng.uniform(5.5, 6.5), p.asphalt, Use::none, 0, 0},
+          {5.2, p.parking, Use::perpendicular_parking, 0, 0},
+          {rng.uniform(4, 7), p.grass, Use::tree_row, 0.1, rng.normal(0, 0.05)},
+          {0.6, p.grass, Use::barrier, 0, 0},
+          {30, p.meadow, Use::forest, 0, 0}};
+}
+
+Population flight_population(const FlightConfig& config, core::Rng& rng) {
+  Population p;
+  p.parked = config.parked_share;
+  p.traffic = 0;
+  p.lamp_spacing = rng.uniform(13, 18);
+  p.tree_spacing = rng.uniform(8, 12);
+  p.street_trees = true;
+  p.heavy = 0;
+  p.every_kind = true;
+  return p;
+}
+
+}  // namespace
+
+BuiltWorld build_flight_world(const FlightConfig& config, std::uint64_t seed) {
+  const core::Rng base(seed);
+  core::Rng shape_rng = base.fork(0);
+  core::Rng flora_rng = base.fork(1);
+  core::Rng site_rng = base.fork(2);
+  World world;
+  const Palette palette = make_palette(world, shape_rng);
+  const Flora flora = grow_flora(world, palette, flora_rng);
+  CrossSection section;
+  section.left = street(palette, shape_rng);
+  section.right = car_park(palette, shape_rng);
+  TerrainShape shape = random_terrain(WorldKind::car_park, palette, shape_rng);
+  shape.half_length = std::max(60.0, 0.5 * config.speed_mps * config.duration_s + 25);
+  Terrain terrain(shape, std::move(section), shape_rng);
+  terrain.draw(world);
+  Site site({world, palette, flora, terrain, flight_population(config, site_rng), site_rng});
+  populate(site);
+  return {std::move(world), std::move(terrain), WorldKind::street, {}};
+}
+
+}  // namespace saker::simulation
