@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace saker::odometry {
 namespace {
@@ -20,18 +21,16 @@ MotionModel::MotionModel(const MotionConfig& config)
       gyro_(config.gyro),
       twist_covariance_(diagonal(config.initial_rate_rps, config.initial_speed_mps)) {}
 
-void MotionModel::start(Time stamp, Time span, std::span<const lidar::ImuSample> imu) {
-  stamp_ = registered_stamp_ = stamp;
-  T_odom_lidar_.setIdentity();
-  T_odom_lidar_.linear() = level(imu);
-  first_rotation_ = gyro_.integrate(imu, stamp - span, stamp);
+void MotionModel::start(Time moment, const SE3& T_odom_lidar) {
+  moment_ = registered_moment_ = moment;
+  T_odom_lidar_ = T_odom_lidar;
 }
 
-Prediction MotionModel::predict(Time stamp, std::span<const lidar::ImuSample> imu) const {
+Prediction MotionModel::predict(Time moment, std::span<const lidar::ImuSample> imu) const {
   Prediction prediction;
-  prediction.stamp = stamp;
-  prediction.seconds = std::min(to_seconds(stamp - stamp_), config_.max_interval_s);
-  prediction.rotation = gyro_.integrate(imu, stamp_, stamp);
+  prediction.moment = moment;
+  prediction.seconds = std::min(to_seconds(moment - moment_), config_.max_interval_s);
+  prediction.rotation = gyro_.integrate(imu, moment_, moment);
   SE3& T = prediction.prior.T_odom_lidar;
   if (prediction.rotation) {
     T.linear() = T_odom_lidar_.linear() * prediction.rotation->R_begin_end();
@@ -59,66 +58,72 @@ Matrix6d MotionModel::motion_covariance(double seconds, bool gyro_used) const {
   return covariance;
 }
 
+Vector6d MotionModel::twist_to(const SE3& T_odom_lidar, double seconds) const {
+  return core::se3_log(T_odom_lidar_.inverse() * T_odom_lidar) / seconds;
+}
+
+Eigen::Vector3d MotionModel::velocity_to(const SE3& T_odom_lidar, double seconds) const {
+  return (T_odom_lidar.translation() - T_odom_lidar_.translation()) / seconds;
+}
+
 Sweep MotionModel::sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
                          std::span<const lidar::ImuSample> imu) const {
   if (span == 0) return {};
+  // A mean over an interval is the rate in its middle; the scan's moment is half an interval later.
   const double seconds = prediction.seconds;
-  if (const auto track = gyro_.integrate(imu, prediction.stamp - span, prediction.stamp)) {
-    const Eigen::Vector3d velocity =
-        (T_odom_lidar.translation() - T_odom_lidar_.translation()) / seconds;
-    const Eigen::Vector3d change =
-        moved_ ? Eigen::Vector3d((velocity - velocity_) / seconds) : Eigen::Vector3d::Zero();
+  const double between =
+      moved_over_s_ > 0 ? 0.5 * (moved_over_s_ + seconds) : std::numeric_limits<double>::infinity();
+  const Time begin = prediction.moment - span / 2;
+  if (const auto track = gyro_.integrate(imu, begin, begin + span)) {
     const Eigen::Matrix3d R_lidar_odom = T_odom_lidar.linear().transpose();
-    return Sweep::rotating(*track, {R_lidar_odom * velocity, R_lidar_odom * change, seconds}, span);
+    const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, seconds);
+    const Eigen::Vector3d change = (velocity - velocity_) / between;
+    return Sweep::rotating(
+        *track, {R_lidar_odom * (velocity + 0.5 * seconds * change), R_lidar_odom * change}, span);
   }
-  const Vector6d twist = core::se3_log(T_odom_lidar_.inverse() * T_odom_lidar) / seconds;
-  const Vector6d change = moved_ ? Vector6d((twist - twist_) / seconds) : Vector6d::Zero();
-  return Sweep::twisting({twist, change, seconds}, span);
+  const Vector6d twist = twist_to(T_odom_lidar, seconds);
+  const Vector6d change = (twist - twist_) / between;
+  return Sweep::twisting({twist + 0.5 * seconds * change, change}, span);
 }
 
-Sweep MotionModel::first_sweep(Time span) const {
-  if (span == 0 || !first_rotation_) return {};
-  return Sweep::rotating(*first_rotation_, {}, span);
-}
-
-Sweep MotionModel::first_sweep(const Prediction& prediction, const SE3& T_odom_lidar,
-                               Time span) const {
+Sweep MotionModel::sweep_before(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
+                                std::span<const lidar::ImuSample> imu) const {
   if (span == 0) return {};
-  const SE3 motion = T_odom_lidar_.inverse() * T_odom_lidar;
-  const double seconds = prediction.seconds;
-  const auto zero = Eigen::Vector3d::Zero();
-  if (first_rotation_)
-    return Sweep::rotating(*first_rotation_, {motion.translation() / seconds, zero, seconds}, span);
-  return Sweep::twisting({core::se3_log(motion) / seconds, Vector6d::Zero(), seconds}, span);
+  const Time begin = moment_ - span / 2;
+  if (const auto track = gyro_.integrate(imu, begin, begin + span)) {
+    const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, prediction.seconds);
+    return Sweep::rotating(*track, {T_odom_lidar_.linear().transpose() * velocity}, span);
+  }
+  return Sweep::twisting({twist_to(T_odom_lidar, prediction.seconds)}, span);
 }
 
 void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
                          const Matrix6d& covariance) {
   const double seconds = prediction.seconds;
-  const SE3 motion = T_odom_lidar_.inverse() * T_odom_lidar;
   if (prediction.rotation) {
     const double sd = std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3);
-    gyro_.correct(prediction.rotation->R_begin_end(), motion.linear(), seconds, sd);
+    gyro_.correct(prediction.rotation->R_begin_end(),
+                  T_odom_lidar_.linear().transpose() * T_odom_lidar.linear(), seconds, sd);
   }
-  twist_ = core::se3_log(motion) / seconds;
+  twist_ = twist_to(T_odom_lidar, seconds);
   twist_covariance_ = covariance / (seconds * seconds);
-  moved_ = true;
-  velocity_ = (T_odom_lidar.translation() - T_odom_lidar_.translation()) / seconds;
+  velocity_ = velocity_to(T_odom_lidar, seconds);
+  moved_over_s_ = seconds;
   usual_interval_s_ += 0.1 * (seconds - usual_interval_s_);
   T_odom_lidar_ = T_odom_lidar;
   T_odom_lidar_.linear() =
       Eigen::Quaterniond(T_odom_lidar.linear()).normalized().toRotationMatrix();
-  stamp_ = registered_stamp_ = prediction.stamp;
+  moment_ = registered_moment_ = prediction.moment;
 }
 
 void MotionModel::coast(const Prediction& prediction) {
   T_odom_lidar_ = prediction.prior.T_odom_lidar;
-  stamp_ = prediction.stamp;
+  moment_ = prediction.moment;
   twist_covariance_ = prediction.prior.covariance / (prediction.seconds * prediction.seconds);
-  if (to_seconds(stamp_ - registered_stamp_) <= config_.max_coast_s) return;
+  if (to_seconds(moment_ - registered_moment_) <= config_.max_coast_s) return;
   twist_.setZero();
   velocity_.setZero();
-  moved_ = false;
+  moved_over_s_ = 0;
   twist_covariance_ = diagonal(config_.initial_rate_rps, config_.initial_speed_mps);
 }
 

@@ -39,54 +39,57 @@ struct MotionConfig {
   }
 };
 
-/// Where the lidar is expected at the next scan's stamp.
+/// Where the lidar is expected at a moment.
 struct Prediction {
-  Time stamp = 0;
-  double seconds = 0;  ///< since the last scan
-  PosePrior prior;     ///< its covariance is that of the motion since the last scan
-  std::optional<RotationTrack> rotation;  ///< since the last scan, when the gyroscope covers it
+  Time moment = 0;
+  double seconds = 0;                     ///< since the last scan's moment
+  PosePrior prior;                        ///< its covariance is that of the motion since then
+  std::optional<RotationTrack> rotation;  ///< since then, when the gyroscope covers it
 };
 
-/// The lidar's motion between scans: a constant twist, or with an IMU the gyroscope's rotation and
-/// a constant velocity in `odom`. The covariance of the twist grows with every scan that could not
-/// be registered, and in directions that registration leaves open.
+/// The lidar's motion from scan to scan, at a moment in each: predicted by a constant twist, or
+/// with an IMU by the gyroscope's rotation and a constant velocity in `odom`. Within a scan the
+/// twist (the velocity) changes as fast as it did over the last two intervals. The covariance of
+/// the twist grows with every scan that could not be registered, and in directions that
+/// registration leaves open.
 class MotionModel {
  public:
   explicit MotionModel(const MotionConfig& config);
 
-  /// `span`: of the first scan.
-  void start(Time stamp, Time span, std::span<const lidar::ImuSample> imu);
+  void start(Time moment, const SE3& T_odom_lidar);
 
-  [[nodiscard]] Prediction predict(Time stamp, std::span<const lidar::ImuSample> imu) const;
+  [[nodiscard]] Prediction predict(Time moment, std::span<const lidar::ImuSample> imu) const;
 
-  /// The motion during a scan of length `span` that ends with the lidar at `T_odom_lidar`.
+  /// The motion during a scan of length `span` in whose middle, the prediction's moment, the lidar
+  /// is at `T_odom_lidar`.
   [[nodiscard]] Sweep sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
                             std::span<const lidar::ImuSample> imu) const;
-  /// The motion during the first scan: before the second one is registered, what the gyroscope
-  /// says, then the motion between the two.
-  [[nodiscard]] Sweep first_sweep(Time span) const;
-  [[nodiscard]] Sweep first_sweep(const Prediction& prediction, const SE3& T_odom_lidar,
-                                  Time span) const;
+
+  /// The same of the scan before, taken to have moved as from it to `T_odom_lidar`.
+  [[nodiscard]] Sweep sweep_before(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
+                                   std::span<const lidar::ImuSample> imu) const;
 
   void accept(const Prediction& prediction, const SE3& T_odom_lidar, const Matrix6d& covariance);
   void coast(const Prediction& prediction);
 
-  [[nodiscard]] Time stamp() const { return stamp_; }
+  [[nodiscard]] Time moment() const { return moment_; }
   [[nodiscard]] const SE3& T_odom_lidar() const { return T_odom_lidar_; }
   [[nodiscard]] double usual_interval_s() const { return usual_interval_s_; }
   [[nodiscard]] const Gyro& gyro() const { return gyro_; }
 
  private:
   [[nodiscard]] Matrix6d motion_covariance(double seconds, bool gyro_used) const;
+  [[nodiscard]] Vector6d twist_to(const SE3& T_odom_lidar, double seconds) const;
+  [[nodiscard]] Eigen::Vector3d velocity_to(const SE3& T_odom_lidar, double seconds) const;
 
   MotionConfig config_;
   Gyro gyro_;
-  Time stamp_ = 0;
-  Time registered_stamp_ = 0;
+  Time moment_ = 0;
+  Time registered_moment_ = 0;
   double usual_interval_s_ = 0.1;
   SE3 T_odom_lidar_ = SE3::Identity();
-  std::optional<RotationTrack> first_rotation_;         // during the first scan
-  bool moved_ = false;                                  // whether the twist was measured
+  double moved_over_s_ =
+      0;  // the interval over which twist and velocity were measured; 0: they were not
   Vector6d twist_ = Vector6d::Zero();                   // a second, in the lidar frame
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // in `odom`
   Matrix6d twist_covariance_;

@@ -6,6 +6,14 @@ namespace {
 constexpr std::size_t kMostSampledPoints =
     262144;  // two returns of a sensor of 128 rows and 1024 columns
 
+constexpr Time kImuMemory = 3 * kNanosecondsPerSecond;
+
+/// The moment whose pose is registered: the middle of the scan (see Sweep).
+Time moment_of(const lidar::Scan& scan) {
+  const Time span = Sweep::span_of(scan);
+  return scan.stamp - (span - span / 2);
+}
+
 std::int32_t offset_of(const lidar::Scan& scan, std::size_t i) {
   return i < scan.offset_ns.size() ? scan.offset_ns[i] : 0;
 }
@@ -48,30 +56,41 @@ Odometry::Odometry(const OdometryConfig& config)
 
 OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
                                          std::span<const lidar::ImuSample> imu) {
-  if (started_ && scan.stamp <= motion_.stamp()) return refused(scan);
+  if (started_ && (scan.stamp <= stamp_ || moment_of(scan) <= motion_.moment()))
+    return refused(scan);
+  imu_.add(imu, scan.stamp - kImuMemory);
   thin(scan);
-  if (!started_) return start(scan, imu);
+  if (!started_) return start(scan);
+  if (!first_.points.empty()) refine_first(scan);
 
-  const Prediction prediction = motion_.predict(scan.stamp, imu);
-  const Fit found = fit(scan, imu, prediction);
+  const Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
+  const Fit found = fit(scan, prediction);
   OdometryEstimate estimate = report(scan, prediction, found);
   remember(prediction, found);
+  stamp_ = estimate.stamp;
+  T_odom_stamp_ = estimate.T_odom_lidar;
   if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
     add_to_map(scan, found.sweep);
   return estimate;
 }
 
-OdometryEstimate Odometry::start(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu) {
-  motion_.start(scan.stamp, Sweep::span_of(scan), imu);
-  const Sweep sweep = motion_.first_sweep(Sweep::span_of(scan));
-  pruned_stamp_ = scan.stamp;
+OdometryEstimate Odometry::start(const lidar::Scan& scan) {
+  stamp_ = pruned_stamp_ = scan.stamp;
+  T_odom_stamp_.linear() = level(imu_.samples());
+  motion_.start(moment_of(scan), T_odom_stamp_);
+  const Time span = Sweep::span_of(scan);
+  // The lidar is taken to stand where it is; a gyroscope knows how it turned.
+  const Prediction still{.moment = moment_of(scan), .seconds = 1, .prior = {}, .rotation = {}};
+  const Sweep sweep = motion_.sweep_before(still, T_odom_stamp_, span, imu_.samples());
+  motion_.start(moment_of(scan), T_odom_stamp_ * sweep.T_reference_stamp().inverse());
   started_ = true;
   keep_first(scan);
   add_to_map(scan, sweep);
+
   OdometryEstimate estimate = refused(scan);
   estimate.status = OdometryStatus::ok;
   estimate.reason = OdometryReason::none;
-  estimate.points = sweep.deskewed(scan);
+  estimate.points = sweep.referred_to_stamp().deskewed(scan);
   estimate.diagnostics.points = static_cast<int>(registration_sample_.size());
   estimate.diagnostics.map_voxels = static_cast<int>(map_.size());
   return estimate;
@@ -80,7 +99,7 @@ OdometryEstimate Odometry::start(const lidar::Scan& scan, std::span<const lidar:
 OdometryEstimate Odometry::refused(const lidar::Scan& scan) const {
   OdometryEstimate estimate;
   estimate.stamp = scan.stamp;
-  estimate.T_odom_lidar = motion_.T_odom_lidar();
+  estimate.T_odom_lidar = T_odom_stamp_;
   estimate.covariance.setZero();
   estimate.reason = OdometryReason::not_newer;
   estimate.points = scan.points;
@@ -100,32 +119,28 @@ void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
     scratch_.push_back(sweep.deskewed(scan.points[i], offset_of(scan, i)).cast<double>());
 }
 
-Odometry::Fit Odometry::fit(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu,
-                            const Prediction& prediction) {
+Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction) {
   const Time span = Sweep::span_of(scan);
   const SE3& predicted = prediction.prior.T_odom_lidar;
   Fit fit;
   fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
   fit.registration.T_odom_lidar = predicted;
-  const int deskew_rounds = first_.points.empty() ? config_.deskew_rounds : config_.first_rounds;
-  const int rounds = span == 0 ? 1 : deskew_rounds;
-  for (int round = 0; round < rounds; ++round) {
+  const int rounds = span == 0 ? 1 : config_.deskew_rounds;
+  for (int round = 0; round < rounds && fit.reason == OdometryReason::none; ++round) {
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
-    if (round > 0 && !first_.points.empty()) redo_first(prediction, T_odom_lidar);
-    fit.sweep = motion_.sweep(prediction, T_odom_lidar, span, imu);
+    fit.sweep = motion_.sweep(prediction, T_odom_lidar, span, imu_.samples());
     deskew(scan, fit.sweep, registration_sample_);
     fit.registration =
         registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
-    if (!registration_.trustworthy(fit.registration, scratch_.size())) break;
-  }
-  if (!registration_.enough(registration_sample_.size())) {
-    fit.reason = OdometryReason::too_few_points;
-  } else if (!registration_.trustworthy(fit.registration, registration_sample_.size())) {
-    fit.reason = OdometryReason::no_fit;
+    if (!registration_.enough(scratch_.size()))
+      fit.reason = OdometryReason::too_few_points;
+    else if (!registration_.trustworthy(fit.registration, scratch_.size()))
+      fit.reason = OdometryReason::no_fit;
   }
   const bool fits = fit.reason == OdometryReason::none;
-  fit.sweep =
-      motion_.sweep(prediction, fits ? fit.registration.T_odom_lidar : predicted, span, imu);
+  if (!fits) fit.registration.T_odom_lidar = predicted;
+  if (!fits) fit.registration.covariance = prediction.prior.covariance;
+  fit.sweep = motion_.sweep(prediction, fit.registration.T_odom_lidar, span, imu_.samples());
   return fit;
 }
 
@@ -134,12 +149,12 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
   const bool fits = fit.reason == OdometryReason::none;
   OdometryEstimate estimate;
   estimate.stamp = scan.stamp;
-  estimate.T_odom_lidar = fits ? fit.registration.T_odom_lidar : prediction.prior.T_odom_lidar;
+  estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
   // Both ends of the motion carry the error of a registration.
-  estimate.covariance = fits ? 2 * fit.registration.covariance : prediction.prior.covariance;
+  estimate.covariance = (fits ? 2 : 1) * fit.registration.covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
-  estimate.points = fit.sweep.deskewed(scan);
+  estimate.points = fit.sweep.referred_to_stamp().deskewed(scan);
   estimate.diagnostics = {.points = static_cast<int>(registration_sample_.size()),
                           .iterations = fit.registration.iterations,
                           .inliers = fit.registration.inliers,
@@ -151,7 +166,6 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
 }
 
 void Odometry::remember(const Prediction& prediction, const Fit& fit) {
-  first_.points.clear();
   if (fit.reason == OdometryReason::none) {
     gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
     motion_.accept(prediction, fit.registration.T_odom_lidar, fit.registration.covariance);
@@ -166,8 +180,8 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
 }
 
 void Odometry::keep_first(const lidar::Scan& scan) {
-  first_.stamp = scan.stamp;
   first_.span = Sweep::span_of(scan);
+  first_.T_odom_stamp = T_odom_stamp_;
   if (first_.span == 0) return;
   for (const std::uint32_t i : map_sample_) {
     first_.points.push_back(scan.points[i]);
@@ -175,14 +189,26 @@ void Odometry::keep_first(const lidar::Scan& scan) {
   }
 }
 
+void Odometry::refine_first(const lidar::Scan& scan) {
+  for (int round = 0; round < config_.first_rounds; ++round) {
+    const Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
+    const Fit found = fit(scan, prediction);
+    if (found.reason != OdometryReason::none) break;
+    redo_first(prediction, found.registration.T_odom_lidar);
+  }
+  first_.points.clear();
+}
+
 void Odometry::redo_first(const Prediction& prediction, const SE3& T_odom_lidar) {
-  const Sweep sweep = motion_.first_sweep(prediction, T_odom_lidar, first_.span);
+  const Sweep sweep = motion_.sweep_before(prediction, T_odom_lidar, first_.span, imu_.samples());
+  const SE3 T_odom_first = first_.T_odom_stamp * sweep.T_reference_stamp().inverse();
+  motion_.start(motion_.moment(), T_odom_first);
   scratch_.clear();
   for (std::size_t i = 0; i < first_.points.size(); ++i)
-    scratch_.push_back(motion_.T_odom_lidar() *
+    scratch_.push_back(T_odom_first *
                        sweep.deskewed(first_.points[i], first_.offset_ns[i]).cast<double>());
   map_.clear();
-  map_.insert(scratch_, first_.stamp);
+  map_.insert(scratch_, stamp_);
 }
 
 void Odometry::add_to_map(const lidar::Scan& scan, const Sweep& sweep) {

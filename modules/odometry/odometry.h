@@ -7,6 +7,7 @@
 #include "core/se3.h"
 #include "lidar/scan.h"
 #include "odometry/adaptive_gate.h"
+#include "odometry/imu_buffer.h"
 #include "odometry/motion_model.h"
 #include "odometry/registration.h"
 #include "odometry/sweep.h"
@@ -116,22 +117,30 @@ class Odometry {
     OdometryReason reason = OdometryReason::none;
   };
 
-  [[nodiscard]] OdometryEstimate start(const lidar::Scan& scan,
-                                       std::span<const lidar::ImuSample> imu);
+  [[nodiscard]] OdometryEstimate start(const lidar::Scan& scan);
   [[nodiscard]] OdometryEstimate refused(const lidar::Scan& scan) const;
-  [[nodiscard]] Fit fit(const lidar::Scan& scan, std::span<const lidar::ImuSample> imu,
-                        const Prediction& prediction);
+  [[nodiscard]] Fit fit(const lidar::Scan& scan, const Prediction& prediction);
   [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
                                         const Fit& fit) const;
 
   void thin(const lidar::Scan& scan);
   void keep_first(const lidar::Scan& scan);
-  /// Puts the first scan into the map again, deskewed by the motion from it to this pose.
+  /// Deskews the first scan and this one by the motion between them, in turns.
+  void refine_first(const lidar::Scan& scan);
   void redo_first(const Prediction& prediction, const SE3& T_odom_lidar);
   void remember(const Prediction& prediction, const Fit& fit);
   void add_to_map(const lidar::Scan& scan, const Sweep& sweep);
   /// The scan's chosen points, deskewed, in scratch_.
   void deskew(const lidar::Scan& scan, const Sweep& sweep, std::span<const std::uint32_t> chosen);
+
+  /// The first scan's sample: nothing was known of the motion in it before the second one was
+  /// registered.
+  struct FirstScan {
+    Time span = 0;
+    SE3 T_odom_stamp = SE3::Identity();
+    std::vector<Eigen::Vector3f> points;
+    std::vector<std::int32_t> offset_ns;
+  };
 
   OdometryConfig config_;
   VoxelMap map_;
@@ -139,20 +148,14 @@ class Odometry {
   AdaptiveGate gate_;
   MotionModel motion_;
   VoxelFilter filter_;
-
-  /// The first scan's sample: nothing was known of the motion in it before the second one was
-  /// registered.
-  struct FirstScan {
-    Time stamp = 0;
-    Time span = 0;
-    std::vector<Eigen::Vector3f> points;
-    std::vector<std::int32_t> offset_ns;
-  };
+  ImuBuffer imu_;
 
   bool started_ = false;
-  FirstScan first_;  // emptied when it was put in again
+  Time stamp_ = 0;
+  SE3 T_odom_stamp_ = SE3::Identity();  // the last estimate
   Time pruned_stamp_ = 0;
   int misfits_ = 0;  // scans in a row
+  FirstScan first_;  // emptied when it was put in again
   std::vector<std::uint32_t> map_sample_, registration_sample_;
   std::vector<Eigen::Vector3d> scratch_;
 };

@@ -3,20 +3,24 @@
 #include <algorithm>
 
 namespace saker::odometry {
+namespace {
 
-void Sweep::set(int knot, const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
-  T_stamp_knot_[knot].leftCols<3>() = R.cast<float>();
-  T_stamp_knot_[knot].col(3) = t.cast<float>();
+/// Seconds from the middle of the scan.
+double seconds_at(int knot, Time span) {
+  return to_seconds(span) * (static_cast<double>(knot) / RotationTrack::kSteps - 0.5);
+}
+
+}  // namespace
+
+void Sweep::set(int knot, const SE3& T) {
+  T_reference_knot_[knot] = T.matrix().topRows<3>().cast<float>();
+  if (knot == kSteps) T_reference_stamp_ = T;
 }
 
 Sweep Sweep::twisting(const Glide<Vector6d>& twist, Time span) {
   Sweep sweep;
   sweep.span_ = span;
-  for (int k = 0; k <= kSteps; ++k) {
-    const double seconds = to_seconds(span) * (static_cast<double>(k) / kSteps - 1);
-    const SE3 T = core::se3_exp(twist.at(seconds));
-    sweep.set(k, T.linear(), T.translation());
-  }
+  for (int k = 0; k <= kSteps; ++k) sweep.set(k, core::se3_exp(twist.at(seconds_at(k, span))));
   return sweep;
 }
 
@@ -24,10 +28,25 @@ Sweep Sweep::rotating(const RotationTrack& track, const Glide<Eigen::Vector3d>& 
                       Time span) {
   Sweep sweep;
   sweep.span_ = span;
+  const Eigen::Matrix3d R_middle_begin = track.R_begin_knot[kSteps / 2].transpose();
   for (int k = 0; k <= kSteps; ++k) {
-    const double seconds = to_seconds(span) * (static_cast<double>(k) / kSteps - 1);
-    sweep.set(k, track.R_begin_end().transpose() * track.R_begin_knot[k], velocity.at(seconds));
+    SE3 T = SE3::Identity();
+    T.linear() = R_middle_begin * track.R_begin_knot[k];
+    T.translation() = velocity.at(seconds_at(k, span));
+    sweep.set(k, T);
   }
+  return sweep;
+}
+
+Sweep Sweep::referred_to_stamp() const {
+  Sweep sweep = *this;
+  const Eigen::Isometry3f T_stamp_reference = T_reference_stamp_.inverse().cast<float>();
+  for (Affine& T : sweep.T_reference_knot_) {
+    const Affine moved = T_stamp_reference.linear() * T;
+    T = moved;
+    T.col(3) += T_stamp_reference.translation();
+  }
+  sweep.T_reference_stamp_.setIdentity();
   return sweep;
 }
 
@@ -37,7 +56,7 @@ Eigen::Vector3f Sweep::deskewed(const Eigen::Vector3f& point, std::int32_t offse
   const float clamped = std::clamp(at, 0.0f, static_cast<float>(kSteps));
   const int k = std::min(static_cast<int>(clamped), kSteps - 1);
   const float ratio = clamped - static_cast<float>(k);
-  const Affine T = T_stamp_knot_[k] + ratio * (T_stamp_knot_[k + 1] - T_stamp_knot_[k]);
+  const Affine T = T_reference_knot_[k] + ratio * (T_reference_knot_[k + 1] - T_reference_knot_[k]);
   return T.leftCols<3>() * point + T.col(3);
 }
 
@@ -51,7 +70,8 @@ std::vector<Eigen::Vector3f> Sweep::deskewed(const lidar::Scan& scan) const {
 
 Time Sweep::span_of(const lidar::Scan& scan) {
   if (scan.offset_ns.size() != scan.points.size() || scan.offset_ns.empty()) return 0;
-  return -std::min<Time>(0, *std::min_element(scan.offset_ns.begin(), scan.offset_ns.end()));
+  const Time first = *std::min_element(scan.offset_ns.begin(), scan.offset_ns.end());
+  return std::clamp<Time>(-first, 0, kNanosecondsPerSecond);
 }
 
 }  // namespace saker::odometry
