@@ -1,0 +1,80 @@
+#include "lidar/ouster_stream.h"
+
+#include <gtest/gtest.h>
+
+#include "lidar/imu_packet.h"
+#include "made_sensor.h"
+
+namespace saker::lidar {
+namespace {
+
+using testing::made_packets;
+using testing::made_time;
+
+SensorInfo sensor() { return SensorInfo::make_os1(16, 512, PacketProfile::kRng15Rfl8Nir8); }
+
+testing::Bytes imu_at(Time stamp) {
+  ImuSample sample;
+  sample.stamp = stamp;
+  sample.acceleration = {0, 0, 9.8};
+  sample.angular_velocity = {0, 0, 0.1};
+  return encode_imu(sample, sensor());
+}
+
+void add_frame(OusterStream& stream, int frame) {
+  for (const auto& packet : made_packets(sensor(), frame, frame)) stream.add(packet);
+}
+
+TEST(OusterStream, AFrameHasTheInertialSamplesUpToItsStampInOrder) {
+  OusterStream stream(sensor());
+  const Time first = made_time(sensor(), 0, 0);
+  const Time stamp = made_time(sensor(), 0, 511);
+  for (const Time offset : {30, 10, 20}) stream.add(imu_at(first + offset));
+  stream.add(imu_at(stamp + 1));  // belongs to the next one
+  add_frame(stream, 0);
+  add_frame(stream, 1);
+  const auto a = stream.take();
+  const auto b = stream.take();
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->frame.imu.size(), 3U);
+  EXPECT_EQ(a->frame.imu[0].stamp, first + 10);
+  EXPECT_EQ(a->frame.imu[2].stamp, first + 30);
+  ASSERT_EQ(b->frame.imu.size(), 1U);
+  EXPECT_EQ(b->frame.imu[0].stamp, stamp + 1);
+}
+
+TEST(OusterStream, NoSampleIsGivenTwiceOrOutOfOrder) {
+  OusterStream stream(sensor());
+  const Time first = made_time(sensor(), 0, 0);
+  stream.add(imu_at(first + 10));
+  stream.add(imu_at(first + 10));
+  add_frame(stream, 0);
+  const auto a = stream.take();
+  stream.add(imu_at(first + 5));  // older than what was given
+  add_frame(stream, 1);
+  const auto b = stream.take();
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->frame.imu.size(), 1U);
+  EXPECT_TRUE(b->frame.imu.empty());
+  EXPECT_EQ(stream.late_imu_samples(), 2);
+}
+
+TEST(OusterStream, NamesFramesByRunningNumbersOfSixDigits) {
+  OusterStream stream(sensor());
+  for (int frame = 0; frame < 3; ++frame) add_frame(stream, frame);
+  for (const char* name : {"000000", "000001", "000002"}) {
+    const auto item = stream.take();
+    ASSERT_TRUE(item);
+    EXPECT_EQ(item->frame.name, name);
+  }
+  EXPECT_EQ(stream.counters().summary(), "");
+}
+
+TEST(OusterStream, WhatWasNotUsedIsToldInWords) {
+  OusterStream stream(sensor());
+  stream.add(testing::Bytes(17, 0));
+  EXPECT_EQ(stream.counters().summary(), "1 bad packets");
+}
+
+}  // namespace
+}  // namespace saker::lidar
