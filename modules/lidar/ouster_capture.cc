@@ -20,7 +20,8 @@ OusterCapture::OusterCapture(const std::filesystem::path& capture,
   throw Error(capture.string() + ": no lidar packet of " +
               std::to_string(PacketFormat(sensor).packet_bytes()) + " bytes (" +
               to_string(sensor.profile) + ", " + std::to_string(sensor.rows) + " rows, by " +
-              metadata.string() + "), found " + sizes_seen());
+              metadata.string() + "), found " + sizes_seen() +
+              (reader_.ended_early().empty() ? "" : "; " + reader_.ended_early()));
 }
 
 std::optional<Frame> OusterCapture::next() {

@@ -47,13 +47,16 @@ std::unique_ptr<ScanSource> open_recording(const fs::path& path, RecordingFormat
 }
 
 fs::path find_metadata(const fs::path& capture) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(capture, ignored)) {
+    throw Error("cannot read capture " + capture.string() + ": no such file");
+  }
   std::vector<std::string> stems = {capture.stem().string()};
   const auto cut = stems[0].rfind('_');
   if (cut != std::string::npos) stems.push_back(stems[0].substr(0, cut));
   std::string looked_for;
   for (const std::string& stem : stems) {
     const fs::path file = capture.parent_path() / (stem + ".json");
-    std::error_code ignored;
     if (fs::is_regular_file(file, ignored)) return file;
     looked_for += (looked_for.empty() ? "" : " or ") + file.string();
   }

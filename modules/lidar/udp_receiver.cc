@@ -28,6 +28,12 @@ int bind_to(int socket, int port) {
   return ntohs(address.sin_port);
 }
 
+/// Beyond the system's limit where that is allowed, else up to it.
+void request_buffer(int socket, int bytes) {
+  if (::setsockopt(socket, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) == 0) return;
+  ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+}
+
 }  // namespace
 
 UdpReceiver::UdpReceiver(int port, int buffer_bytes) : buffer_(kLargestDatagram) {
@@ -36,7 +42,7 @@ UdpReceiver::UdpReceiver(int port, int buffer_bytes) : buffer_(kLargestDatagram)
   }
   socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket_ >= 0) {
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes, sizeof buffer_bytes);
+    request_buffer(socket_, buffer_bytes);
     port_ = bind_to(socket_, port);
   }
   if (socket_ >= 0 && port_ >= 0) return;
@@ -46,6 +52,13 @@ UdpReceiver::UdpReceiver(int port, int buffer_bytes) : buffer_(kLargestDatagram)
 }
 
 UdpReceiver::~UdpReceiver() { ::close(socket_); }
+
+int UdpReceiver::buffer_bytes() const {
+  int granted = 0;
+  socklen_t size = sizeof granted;
+  ::getsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &granted, &size);
+  return granted / 2;  // the kernel counts its own share too
+}
 
 std::span<const std::uint8_t> UdpReceiver::receive(std::chrono::milliseconds timeout) {
   pollfd ready{socket_, POLLIN, 0};

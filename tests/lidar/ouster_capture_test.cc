@@ -110,6 +110,8 @@ TEST(OusterCapture, MetadataOfAnotherSensorIsRefusedWithBothSizes) {
 
 TEST(OpenRecording, FindsMetadataByTheStemOrWithoutItsLastPart) {
   const TemporaryFolder folder;
+  EXPECT_THROW((void)find_metadata(folder / "drive_000.pcap"), Error);  // no such capture
+  std::ofstream(folder / "drive_000.pcap") << "capture";
   EXPECT_THROW((void)find_metadata(folder / "drive_000.pcap"), Error);
   std::ofstream(folder / "drive.json") << "{}";
   EXPECT_EQ(find_metadata(folder / "drive_000.pcap"), folder / "drive.json");

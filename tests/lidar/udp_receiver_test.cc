@@ -6,9 +6,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <thread>
 
 #include "core/error.h"
+#include "lidar/imu_packet.h"
+#include "lidar/ouster_sensor.h"
 #include "lidar/ouster_stream.h"
 #include "made_sensor.h"
 
@@ -69,6 +71,38 @@ TEST(UdpReceiver, HoldsAPacketBurstWhileTheReaderIsBusy) {
     ASSERT_EQ(packet.size(), 8448U);
     EXPECT_EQ(packet[0], i);
   }
+}
+
+TEST(UdpReceiver, SaysHowMuchTheKernelHolds) {
+  EXPECT_EQ(UdpReceiver(0, 65536).buffer_bytes(), 65536);
+}
+
+TEST(OusterSensor, GivesFramesWithInertialSamplesFromTwoPortsUntilTheyFallSilent) {
+  const SensorInfo info = SensorInfo::make_os1(16, 512, PacketProfile::kRng15Rfl8Nir8);
+  OusterSensor sensor(info, {.lidar_port = 0, .imu_port = 0, .silence = milliseconds(200)});
+  const Sender lidar(sensor.lidar_port());
+  const Sender imu(sensor.imu_port());
+  ImuSample sample;
+  sample.stamp = testing::made_time(info, 0, 10);
+  sample.acceleration = {0, 0, 9.8};
+  sample.angular_velocity = {0, 0, 0};
+  imu.send(encode_imu(sample, info));
+  std::thread sending([&] {
+    for (int frame = 0; frame < 3; ++frame) {
+      for (const auto& packet : testing::made_packets(info, frame, frame)) lidar.send(packet);
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+  });
+  std::size_t frames = 0;
+  std::size_t samples = 0;
+  while (const auto frame = sensor.next()) {
+    ++frames;
+    samples += frame->imu.size();
+  }
+  sending.join();
+  EXPECT_EQ(frames, 3U);
+  EXPECT_EQ(samples, 1U);
+  EXPECT_EQ(sensor.counters().summary(), "");
 }
 
 TEST(UdpReceiver, GivesNothingWhenNothingComes) {
