@@ -1,10 +1,24 @@
 #include "saker/subcommand.h"
+#ifdef SAKER_CONFIGURATION
+#include "saker/configuration.h"
+#endif
 
 /// One function a subcommand; the list is made from tools/saker/CMakeLists.txt.
 namespace saker::tools {
 #define SAKER_COMMAND(name) void add_##name(Commands& commands);
 #include "commands.inc"
 #undef SAKER_COMMAND
+
+namespace {
+
+/// A wrong key is refused by every command, also by one that reads no key.
+void check([[maybe_unused]] const CommonOptions& common) {
+#ifdef SAKER_CONFIGURATION
+  (void)read_configuration(common);
+#endif
+}
+
+}  // namespace
 }  // namespace saker::tools
 
 int main(int argc, char** argv) {
@@ -14,5 +28,5 @@ int main(int argc, char** argv) {
 #include "commands.inc"
 #undef SAKER_COMMAND
       },
-      argc, argv);
+      saker::tools::check, argc, argv);
 }

@@ -21,8 +21,7 @@ void add_common(CLI::App& app, CommonOptions& common, Output output) {
       ->type_name("FILE");
   app.add_option("--set", common.settings, "overrides one key of the configuration; repeatable")
       ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);  // what follows the one value is the input's
   app.add_option("--seed", common.seed, "of all random numbers; 1 where it is not given")
       ->type_name("N");
   app.add_option("--threads", common.threads, "in all; results do not depend on it")
@@ -43,10 +42,12 @@ int refuse(const Commands& commands, const std::string& what) {
   return kInvalid;
 }
 
-int parse_and_run(CLI::App& app, const Commands& commands, int argc, const char* const* argv) {
+int parse_and_run(CLI::App& app, const Commands& commands,
+                  const std::function<void(const CommonOptions&)>& check, int argc,
+                  const char* const* argv) {
   try {
     app.parse(argc, argv);
-    return commands.run();
+    return commands.run(check);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
@@ -75,10 +76,11 @@ CLI::App& Commands::add(CLI::App& parent, const Description& description, Run ru
   return app;
 }
 
-int Commands::run() const {
+int Commands::run(const std::function<void(const CommonOptions&)>& check) const {
   for (const Command& command : commands_) {
     if (!command.app->parsed()) continue;
     start_logging(command.common->verbose);
+    check(*command.common);
     return command.run(*command.common);
   }
   throw Error("no subcommand");  // not reached: the parser requires one
@@ -93,14 +95,15 @@ std::string Commands::called() const {
   return name;
 }
 
-int run_command_line(const std::vector<std::function<void(Commands&)>>& list, int argc,
+int run_command_line(const std::vector<std::function<void(Commands&)>>& list,
+                     const std::function<void(const CommonOptions&)>& check, int argc,
                      const char* const* argv) {
   CLI::App app("Saker: from LiDAR to a map of objects", "saker");
   app.require_subcommand(1);
   app.set_version_flag("--version", SAKER_VERSION);
   Commands commands(app);
   for (const auto& add : list) add(commands);
-  return parse_and_run(app, commands, argc, argv);
+  return parse_and_run(app, commands, check, argc, argv);
 }
 
 }  // namespace saker::tools

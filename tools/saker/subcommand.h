@@ -58,8 +58,8 @@ class Commands {
   CLI::App& add(CLI::App& parent, const Description& description, Run run);
   CLI::App& add_group(const std::string& name, const std::string& does);
 
-  /// Runs the subcommand that was parsed; its exit status.
-  [[nodiscard]] int run() const;
+  /// Runs the subcommand that was parsed, after `check`; its exit status.
+  [[nodiscard]] int run(const std::function<void(const CommonOptions&)>& check) const;
 
   /// Name of what was called so far ("saker", "saker replay", "saker map info"), for messages.
   [[nodiscard]] std::string called() const;
@@ -75,8 +75,10 @@ class Commands {
   std::vector<Command> commands_;
 };
 
-/// The whole program without the process: parses, runs, catches; the exit status.
+/// The whole program without the process: parses, checks what all commands share, runs, catches;
+/// the exit status.
 [[nodiscard]] int run_command_line(const std::vector<std::function<void(Commands&)>>& list,
-                                   int argc, const char* const* argv);
+                                   const std::function<void(const CommonOptions&)>& check, int argc,
+                                   const char* const* argv);
 
 }  // namespace saker::tools

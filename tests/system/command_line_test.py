@@ -1,0 +1,81 @@
+"""The program from outside: what is wrong gets one line on stderr and status 2, never a crash."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def saker(*arguments, cwd=None):
+    return subprocess.run([os.environ["SAKER"], *map(str, arguments)], cwd=cwd, capture_output=True,
+                          text=True, stdin=subprocess.DEVNULL, timeout=120)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="saker_command_line_")
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def refused(self, *arguments):
+        """The one line that says why."""
+        run = saker(*arguments)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        lines = run.stderr.splitlines()
+        self.assertEqual(len(lines), 1, run.stderr)
+        self.assertTrue(lines[0].startswith("saker " + arguments[0]), lines[0])
+        return lines[0]
+
+    def test_the_default_configuration_in_the_repository_is_the_one_in_the_program(self):
+        self.assertEqual(saker("config").stdout, (ROOT / "configs/default.yaml").read_text())
+
+    def test_the_default_configuration_can_be_read_back(self):
+        run = saker("config", "--config", ROOT / "configs/default.yaml")
+        self.assertEqual(run.stdout, (ROOT / "configs/default.yaml").read_text(), run.stderr)
+
+    def test_a_setting_shows_in_the_effective_configuration(self):
+        default = saker("config").stdout
+        changed = saker("config", "--set", "rates.slam_hz=1.25").stdout
+        differing = [b for a, b in zip(default.splitlines(), changed.splitlines()) if a != b]
+        self.assertEqual(len(differing), 1)
+        self.assertIn("slam_hz: 1.25", differing[0])
+
+    def test_a_wrong_configuration_is_refused(self):
+        file = self.folder / "c.yaml"
+        file.write_text("rates:\n  slam_hs: 2\n")
+        self.assertEqual(self.refused("config", "--config", file),
+                         f"saker config: {file}:2: rates.slam_hs: unknown key, the nearest is rates.slam_hz")
+        self.assertIn("rates.slam_hz", self.refused("config", "--set", "rates.slam_hz=1e9"))
+        self.assertIn("no_such.yaml", self.refused("config", "--config", self.folder / "no_such.yaml"))
+
+    def test_every_command_refuses_a_wrong_configuration(self):
+        for command in (["scans", "x.pcap"], ["replay", "x"], ["segment", "x"], ["simulate-scans", "x"]):
+            with self.subTest(command=command[0]):
+                line = self.refused(*command, "-o", self.folder / "out", "--set", "rates.slam_hs=2")
+                self.assertIn("rates.slam_hz", line)
+
+    def test_an_input_that_is_not_there_is_named(self):
+        for command in ("scans", "replay", "segment", "simulate-scans"):
+            with self.subTest(command=command):
+                line = self.refused(command, self.folder / "no_such_input", "-o", self.folder / "out")
+                self.assertIn("no_such_input", line)
+
+    def test_an_empty_folder_is_refused(self):
+        (self.folder / "empty").mkdir()
+        for command in ("replay", "segment"):
+            with self.subTest(command=command):
+                self.assertIn("empty", self.refused(command, self.folder / "empty", "-o", self.folder / "o"))
+
+    def test_what_is_no_map_is_refused(self):
+        bad = self.folder / "bad.json"
+        bad.write_text("{")
+        for command in (["info", bad], ["eval", bad, bad], ["convert", bad, self.folder / "b.smap"]):
+            with self.subTest(command=command[0]):
+                self.assertIn("bad.json", self.refused("map", *command))
+
+
+if __name__ == "__main__":
+    unittest.main()
