@@ -21,15 +21,17 @@ enum class Shape { none, cuboid, cylinder, plane };
 struct ObjectClass {
   std::string name;
   Shape shape = Shape::none;
-  bool target = false;               ///< guides active mapping; the others only hold the pose
-  std::vector<double> label_ids;     ///< SemanticKITTI ids merged into this class; the first one is written
+  bool target = false;  ///< guides active mapping; the others only hold the pose
+  std::vector<double>
+      label_ids;  ///< SemanticKITTI ids merged into this class; the first one is written
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("name", name, "", "name in maps, messages and files");
     v.field("shape", shape, "", "model of an object: cuboid, cylinder, plane or none");
     v.field("target", target, "", "whether it is mapped actively");
-    v.field("label_ids", label_ids, {0, 65535}, "SemanticKITTI id", "ids merged into the class; the first is written");
+    v.field("label_ids", label_ids, {0, 65535}, "SemanticKITTI id",
+            "ids merged into the class; the first is written");
   }
 };
 
@@ -45,14 +47,15 @@ struct ClassTable {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.list("classes", classes, "in the order of the network's output; the first is what belongs to no object");
+    v.list("classes", classes,
+           "in the order of the network's output; the first is what belongs to no object");
   }
 
   [[nodiscard]] int size() const { return static_cast<int>(classes.size()); }
   [[nodiscard]] const ObjectClass& operator[](ClassId id) const { return classes[id]; }
-  [[nodiscard]] ClassId of_label(std::uint32_t label) const;         ///< 0 where no class merges it
-  [[nodiscard]] std::uint32_t label_of(ClassId id) const;            ///< the id that is written
-  [[nodiscard]] ClassId find(const std::string& name) const;         ///< throws Error
+  [[nodiscard]] ClassId of_label(std::uint32_t label) const;  ///< 0 where no class merges it
+  [[nodiscard]] std::uint32_t label_of(ClassId id) const;     ///< the id that is written
+  [[nodiscard]] ClassId find(const std::string& name) const;  ///< throws Error
 };
 
 }  // namespace saker::objects

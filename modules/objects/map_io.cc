@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <fstream>
-#include <sstream>
-
 #include "core/error.h"
+#include "core/files.h"
 #include "objects/map_document.h"
 
 namespace saker::objects {
@@ -37,16 +34,6 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   for (std::size_t i = kWord; i-- > 0;)
     value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
   return value;
-}
-
-std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  if (!std::filesystem::is_regular_file(file) || !in || !(bytes << in.rdbuf())) {
-    throw Error(
-        fmt::format("cannot read {}: expected an object map (.json or .smap)", file.string()));
-  }
-  return bytes.str();
 }
 
 }  // namespace
@@ -96,7 +83,7 @@ ObjectMap from_smap(const std::string& bytes, const ClassTable& table, const std
 }
 
 ObjectMap read_map(const std::filesystem::path& file, const ClassTable& table) {
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = core::read_file(file);
   return bytes.starts_with(kMagic) ? from_smap(bytes, table, file.string())
                                    : from_json(bytes, table, file.string());
 }
@@ -108,8 +95,7 @@ void write_map(const std::filesystem::path& file, const ObjectMap& map, const Cl
         fmt::format("cannot write {}: expected a name that ends in .json or .smap", file.string()));
   }
   const std::string bytes = ending == ".smap" ? to_smap(map, table) : to_json(map, table);
-  std::ofstream out(file, std::ios::binary);
-  if (!(out << bytes) || !out.flush()) throw Error(fmt::format("cannot write {}", file.string()));
+  core::write_file(file, bytes);
 }
 
 }  // namespace saker::objects

@@ -10,22 +10,22 @@ namespace saker::objects {
 
 /// One output of a virtual sensor: an object as seen from the robot at `stamp`.
 struct Measurement {
-  Time stamp = 0;                    ///< of the scan in whose lidar frame the model is given
-  ClassId class_id = 0;              ///< the most probable class
+  Time stamp = 0;                         ///< of the scan in whose lidar frame the model is given
+  ClassId class_id = 0;                   ///< the most probable class
   std::vector<double> class_probability;  ///< one an entry of the class table, sums to 1
-  Model model;                       ///< in the lidar frame at `stamp`
-  Eigen::MatrixXd covariance;        ///< 9×9 [rotation, translation, size] in the cuboid's own frame, or 6×6 [root, axis in
-                                     ///< its tangent plane, radius] in the lidar frame
-  double front_log_odds = 0;         ///< > 0: the model's x axis points to the front (cuboids)
-  int points = 0;                    ///< that the model was fitted to
-  bool moving = false;               ///< seen to move within the window; kept out of the map
+  Model model;                            ///< in the lidar frame at `stamp`
+  Eigen::MatrixXd covariance;  ///< 9×9 [rotation, translation, size] in the cuboid's own frame, or
+                               ///< 6×6 [root, axis in its tangent plane, radius] in the lidar frame
+  double front_log_odds = 0;  ///< > 0: the model's x axis points to the front (cuboids)
+  int points = 0;             ///< that the model was fitted to
+  bool moving = false;        ///< seen to move within the window; kept out of the map
 };
 
 /// Everything that was measured from one window of scans.
 struct Detections {
   Time stamp = 0;
   std::vector<Measurement> measurements;
-  std::vector<GroundPlane> ground;   ///< local ground planes, lidar frame at `stamp`
+  std::vector<GroundPlane> ground;  ///< local ground planes, lidar frame at `stamp`
 };
 
 }  // namespace saker::objects

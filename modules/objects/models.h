@@ -7,9 +7,10 @@
 
 namespace saker::objects {
 
-/// Origin at its centre, x to its front, z along the local ground's normal, its bottom on the ground.
+/// Origin at its centre, x to its front, z along the local ground's normal, its bottom on the
+/// ground.
 struct Cuboid {
-  SE3 pose = SE3::Identity();                            ///< T_frame_cuboid
+  SE3 pose = SE3::Identity();                             ///< T_frame_cuboid
   Eigen::Vector3d size = Eigen::Vector3d::Constant(NAN);  ///< length (x), width (y), height (z), m
 };
 
@@ -41,8 +42,8 @@ using Model = std::variant<Cuboid, Cylinder>;
 /// What data association compares: a cuboid's centre, a cylinder's root.
 [[nodiscard]] Eigen::Vector3d place(const Model& model);
 
-/// Two orthonormal vectors normal to `axis`, a smooth function of it near the vertical: the tangent plane in which the two
-/// components of an axis error are expressed.
+/// Two orthonormal vectors normal to `axis`, a smooth function of it near the vertical: the tangent
+/// plane in which the two components of an axis error are expressed.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis);
 
 }  // namespace saker::objects

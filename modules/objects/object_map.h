@@ -13,9 +13,10 @@ struct MapObject {
   ClassId class_id = 0;
   std::vector<double> class_probability;  ///< fused, one an entry of the class table
   int observations = 0;
-  Model model;                            ///< in the map's frame
-  Eigen::MatrixXd covariance;             ///< as in Measurement, in the object's own frame; empty where not computed
-  int points = -1;                        ///< returns that hit it, said by a simulator's truth; −1: unknown
+  Model model;  ///< in the map's frame
+  Eigen::MatrixXd
+      covariance;   ///< as in Measurement, in the object's own frame; empty where not computed
+  int points = -1;  ///< returns that hit it, said by a simulator's truth; −1: unknown
 };
 
 /// The sparse map: objects and local ground, in `frame`.

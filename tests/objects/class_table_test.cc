@@ -1,0 +1,33 @@
+#include "objects/class_table.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace saker::objects {
+namespace {
+
+TEST(ClassTable, MergesLabelsAndWritesTheFirst) {
+  const ClassTable table;
+  for (const std::uint32_t label : {10U, 13U, 18U, 20U, 252U, 257U, 258U, 259U}) {
+    EXPECT_EQ(table[table.of_label(label)].name, "vehicle") << label;
+  }
+  EXPECT_EQ(table.of_label(81), 0);
+  EXPECT_EQ(table.label_of(table.find("vehicle")), 10U);
+  EXPECT_EQ(table.label_of(0), 99U);
+  EXPECT_EQ(table.of_label(table.label_of(0)), 0);
+}
+
+TEST(ClassTable, UnknownNameIsNamedWithTheKnownOnes) {
+  try {
+    (void)ClassTable{}.find("lorry");
+    FAIL();
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    EXPECT_NE(line.find("lorry"), std::string::npos);
+    EXPECT_NE(line.find("other, vehicle, trunk, pole, ground"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace saker::objects

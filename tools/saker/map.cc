@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "objects/comparison.h"
+#include "objects/map_io.h"
+#include "saker/configuration.h"
+#include "saker/output.h"
+#include "saker/subcommand.h"
+
+namespace saker::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MapOptions {
+  std::string first, second;
+  bool json = false;
+  bool force = false;
+  objects::ComparisonOptions comparison;
+};
+
+objects::ClassTable classes(const CommonOptions& common) {
+  return read_configuration(common).objects;
+}
+
+// saker map info
+
+std::string describe(const objects::MapObject& object, const objects::ClassTable& table) {
+  const Eigen::Vector3d at = objects::place(object.model);
+  std::string line =
+      fmt::format("{:5d}  {:8}  {:4.2f}  {:4d}  ({:8.2f}, {:8.2f}, {:7.2f})  ", object.id,
+                  table[object.class_id].name, object.class_probability[object.class_id],
+                  object.observations, at.x(), at.y(), at.z());
+  if (const auto* cuboid = std::get_if<objects::Cuboid>(&object.model)) {
+    return line + fmt::format("{:.2f} x {:.2f} x {:.2f} m, heading {:.1f} degrees\n",
+                              cuboid->size.x(), cuboid->size.y(), cuboid->size.z(),
+                              core::yaw(cuboid->pose.linear()) * 57.29577951308232);
+  }
+  const auto& cylinder = std::get<objects::Cylinder>(object.model);
+  return line + fmt::format("radius {:.3f} m, height {:.2f} m\n", cylinder.radius, cylinder.height);
+}
+
+int info(const MapOptions& options, const CommonOptions& common) {
+  const objects::ClassTable table = classes(common);
+  const objects::ObjectMap map = objects::read_map(options.first, table);
+  std::map<std::string, int> counts;
+  for (const auto& object : map.objects) ++counts[table[object.class_id].name];
+  std::cout << fmt::format("frame {}, {} objects, {} ground planes\n", map.frame,
+                           map.objects.size(), map.ground.size());
+  for (const auto& [name, count] : counts) std::cout << fmt::format("{:8}  {}\n", name, count);
+  std::cout << "   id  class     prob   obs  place (m)\n";
+  for (const auto& object : map.objects) std::cout << describe(object, table);
+  return 0;
+}
+
+// saker map convert
+
+int convert(const MapOptions& options, const CommonOptions& common) {
+  const objects::ClassTable table = classes(common);
+  const objects::ObjectMap map = objects::read_map(options.first, table);
+  objects::write_map(output_file(options.second, options.force), map, table);
+  return 0;
+}
+
+// saker map eval
+
+/// A figure of too few objects is null.
+Json number(double value) {
+  return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json();
+}
+
+Json class_json(const objects::ClassComparison& c) {
+  Json entry = {{"truth", c.truth},   {"mapped", c.mapped},     {"found", c.found},
+                {"missed", c.missed}, {"invented", c.invented}, {"duplicates", c.duplicates}};
+  for (const objects::ErrorFigures& error : c.errors) {
+    entry["errors"][error.quantity] = {{"mean", number(error.mean)},
+                                       {"sd", number(error.standard_deviation)},
+                                       {"mae", number(error.mean_absolute)}};
+  }
+  if (c.shape == objects::Shape::cuboid) {
+    entry["front_right"] = c.front_right;
+    entry["length_slope"] = number(c.length_slope);
+    entry["size_mae_m"] = number(c.size_mae_m);
+    entry["constant_size_mae_m"] = number(c.constant_size_mae_m);
+  }
+  return entry;
+}
+
+void print_class(const objects::ClassComparison& c) {
+  std::cout << fmt::format(
+      "{}: {} true, {} mapped: {} found, {} missed, {} invented, {} duplicates\n", c.name, c.truth,
+      c.mapped, c.found, c.missed, c.invented, c.duplicates);
+  if (c.found == 0) return;
+  std::cout << "  error = mapped - true      mean        sd       MAE\n";
+  for (const objects::ErrorFigures& error : c.errors) {
+    std::cout << fmt::format("  {:20}  {:9.3f} {:9.3f} {:9.3f}\n", error.quantity, error.mean,
+                             error.standard_deviation, error.mean_absolute);
+  }
+  if (c.shape != objects::Shape::cuboid) return;
+  std::cout << fmt::format("  front in front          {} of {}\n", c.front_right, c.found);
+  std::cout << fmt::format(
+      "  length and width MAE    {:.3f} m; one box of the mean size for all: {:.3f} m\n",
+      c.size_mae_m, c.constant_size_mae_m);
+  std::cout << fmt::format("  slope of mapped on true length  {:.2f}\n", c.length_slope);
+}
+
+int eval(const MapOptions& options, const CommonOptions& common) {
+  const objects::ClassTable table = classes(common);
+  const auto result =
+      objects::compare(objects::read_map(options.first, table),
+                       objects::read_map(options.second, table), table, options.comparison);
+  Json document = Json::object();
+  for (const objects::ClassComparison& c : result) {
+    if (c.truth + c.mapped == 0 && !options.json) continue;
+    document[c.name] = class_json(c);
+    if (!options.json) print_class(c);
+  }
+  if (options.json) std::cout << document.dump(1) << "\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_map(Commands& commands) {
+  auto options = std::make_shared<MapOptions>();
+  CLI::App& group =
+      commands.add_group("map", "object maps: look at, convert, compare with the truth");
+
+  CLI::App& info_app =
+      commands.add(group,
+                   {.name = "info",
+                    .does = "what a map holds",
+                    .output = Output::none,
+                    .example = "saker map info out/map.json"},
+                   [options](const CommonOptions& common) { return info(*options, common); });
+  info_app.add_option("MAP", options->first, "map (.json or .smap)")->required();
+
+  CLI::App& convert_app =
+      commands.add(group,
+                   {.name = "convert",
+                    .does = "from .json to .smap or back; the endings decide",
+                    .output = Output::none,
+                    .example = "saker map convert out/map.smap map.json"},
+                   [options](const CommonOptions& common) { return convert(*options, common); });
+  convert_app.add_option("A", options->first, "map to read")->required();
+  convert_app.add_option("B", options->second, "file to write")->required();
+
+  convert_app.add_flag("--force", options->force, "replace a file that is there");
+
+  CLI::App& eval_app = commands.add(
+      group,
+      {.name = "eval",
+       .does = "a map against the truth: found, missed, invented, duplicates, errors a class",
+       .output = Output::none,
+       .example = "saker map eval out/map.json flight/truth.json"},
+      [options](const CommonOptions& common) { return eval(*options, common); });
+  eval_app.add_option("MAP", options->first, "map to judge")->required();
+  eval_app.add_option("TRUTH", options->second, "true map, in the same frame")->required();
+  eval_app.add_flag("--json", options->json, "figures as JSON");
+  eval_app.add_option("--gate", options->comparison.gate_m, "largest distance of a pair in x-y, m")
+      ->capture_default_str();
+  eval_app
+      .add_option("--min-points", options->comparison.least_points,
+                  "true objects that were hit by fewer returns do not count")
+      ->capture_default_str();
+}
+
+}  // namespace saker::tools
