@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "segmentation/ground_height.h"
+#include "segmentation/range_image.h"
+
+namespace saker::segmentation {
+
+/// What the network is given for each pixel. The training calls the same code (training_inputs.cc),
+/// so there is one definition. Everything is geometry: simulated reflectivity is unlike any real
+/// one. All values lie in about −3 … 3 without further normalisation and are 0 where nothing
+/// returned.
+inline constexpr std::array<const char*, 9> kChannels = {
+    "valid",        // 1 where there is a return
+    "log_range",    // ln(range / 10 m)
+    "height",       // above the local ground, 3 m, −1 … 4
+    "fine_height",  // above the local ground, 0.3 m, −2 … 2
+    "normal_up",    // the surface normal's component along up; 0: no surface
+    "right_step",   // asinh((range of the right neighbour − range) / 0.3 m) / 3; nothing there: 2
+    "lower_step",   // the same to the row below
+    "slope",        // of the line from the pixel below, in right angles, −1 … 1
+    "elevation",    // sine, over the local horizontal
+};
+inline constexpr int kChannelCount = static_cast<int>(kChannels.size());
+
+class Features {
+ public:
+  /// channel × row × column. Cost: 5 ms for 64×1024.
+  const std::vector<float>& compute(const RangeImage& image);
+
+ private:
+  GroundHeight ground_;
+  std::vector<float> values_;
+};
+
+}  // namespace saker::segmentation

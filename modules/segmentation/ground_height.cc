@@ -1,0 +1,165 @@
+#include "segmentation/ground_height.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace saker::segmentation {
+namespace {
+
+constexpr float kCell = 1.5F;    // m
+constexpr int kCells = 128;      // a side; beyond 96 m the border's cell answers
+constexpr float kSlope = 0.25F;  // of the ground, at most
+constexpr float kBelow = 1.0F;   // m below the usual level, and …
+constexpr float kFall = 0.08F;   // … this share of the distance: lower points are reflections
+constexpr float kFar = 1e6F;     // height of a cell without points
+constexpr int kEnoughNormals = 100;
+constexpr std::array<float, 3> kConeCosine = {0.5F, 0.866F, 0.966F};  // 60°, 30°, 15°
+
+int cell_of(float v) {
+  return std::clamp(static_cast<int>(std::floor(v / kCell)) + kCells / 2, 0, kCells - 1);
+}
+
+/// Whether two pixels are close enough to lie on one surface; rows are far apart on the ground.
+bool joined(float range_a, float range_b, float share) {
+  return range_a > 0 && range_b > 0 && std::abs(range_a - range_b) < 0.3F + share * range_a;
+}
+
+/// The difference across pixel i: both neighbours where they are there, else one of them and
+/// itself.
+bool difference(const RangeImage& image, std::size_t before, std::size_t i, std::size_t after,
+                float share, Eigen::Vector3f& d) {
+  const bool back = joined(image.range[i], image.range[before], share) && before != i;
+  const bool ahead = joined(image.range[i], image.range[after], share) && after != i;
+  if (!back && !ahead) return false;
+  d = image.points[ahead ? after : i] - image.points[back ? before : i];
+  return true;
+}
+
+}  // namespace
+
+void GroundHeight::find_normals(const RangeImage& image) {
+  normals_.assign(image.size(), Eigen::Vector3f::Zero());
+  const std::size_t columns = image.columns;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (!image.valid(i)) continue;
+    const std::size_t row = i / columns, column = i % columns, begin = row * columns;
+    const std::size_t left = begin + (column + columns - 1) % columns;
+    const std::size_t right = begin + (column + 1) % columns;
+    const std::size_t above = row > 0 ? i - columns : i;
+    const std::size_t below = i + columns < image.size() ? i + columns : i;
+    Eigen::Vector3f across, down;
+    if (!difference(image, left, i, right, 0.05F, across)) continue;
+    if (!difference(image, above, i, below, 0.3F, down)) continue;
+    const Eigen::Vector3f normal = across.cross(down);
+    const float length = normal.norm();
+    if (!(length > 1e-6F)) continue;
+    const float side = normal.dot(image.points[i]) > 0 ? -1.0F : 1.0F;
+    normals_[i] = normal * (side / length);
+  }
+}
+
+void GroundHeight::find_up() {
+  up_ = Eigen::Vector3f::UnitZ();
+  for (const float cosine : kConeCosine) {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    int count = 0;
+    for (const Eigen::Vector3f& normal : normals_) {
+      if (normal.dot(up_) < cosine) continue;
+      sum += normal;
+      ++count;
+    }
+    if (count < kEnoughNormals) return;
+    up_ = sum.normalized();
+  }
+}
+
+void GroundHeight::level(const RangeImage& image) {
+  const Eigen::Matrix3f turn =
+      Eigen::Quaternionf::FromTwoVectors(up_, Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  level_.assign(image.size(), Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (image.valid(i)) level_[i] = turn * image.points[i];
+  }
+}
+
+/// Median height of the surfaces that look up; most of them are ground.
+float GroundHeight::usual_level() {
+  scratch_.clear();
+  for (std::size_t i = 0; i < normals_.size(); ++i) {
+    if (normals_[i].dot(up_) > kConeCosine.back()) scratch_.push_back(level_[i].z());
+  }
+  if (scratch_.empty()) return -kFar;
+  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
+  std::nth_element(scratch_.begin(), middle, scratch_.end());
+  return *middle;
+}
+
+void GroundHeight::find_lowest(const RangeImage& image) {
+  const float usual = usual_level();
+  lowest_.assign(static_cast<std::size_t>(kCells) * kCells, kFar);
+  const std::size_t columns = image.columns;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (!image.valid(i)) continue;
+    if (level_[i].z() < usual - kBelow - kFall * level_[i].head<2>().norm()) continue;
+    const std::size_t next = i % columns + 1 < columns ? i + 1 : i + 1 - columns;
+    if (!joined(image.range[i], image.range[next], 0.03F)) continue;
+    float& lowest =
+        lowest_[static_cast<std::size_t>(cell_of(level_[i].y())) * kCells + cell_of(level_[i].x())];
+    lowest = std::min(lowest, level_[i].z());
+  }
+}
+
+void GroundHeight::limit_slope() {
+  constexpr float kStep = kSlope * kCell, kDiagonal = kStep * 1.41421F;
+  auto at = [this](int row, int column) -> float& {
+    return lowest_[static_cast<std::size_t>(row) * kCells + column];
+  };
+  auto lower = [&](int row, int column, int d_row, int d_column, float step) {
+    const int r = row + d_row, c = column + d_column;
+    if (r < 0 || c < 0 || r >= kCells || c >= kCells) return;
+    at(row, column) = std::min(at(row, column), at(r, c) + step);
+  };
+  auto sweep = [&](int row, int column, int way) {
+    lower(row, column, 0, -way, kStep);
+    lower(row, column, -way, -1, kDiagonal);
+    lower(row, column, -way, 0, kStep);
+    lower(row, column, -way, 1, kDiagonal);
+  };
+  for (int row = 0; row < kCells; ++row) {
+    for (int column = 0; column < kCells; ++column) sweep(row, column, 1);
+  }
+  for (int row = kCells - 1; row >= 0; --row) {
+    for (int column = kCells - 1; column >= 0; --column) sweep(row, column, -1);
+  }
+}
+
+/// Between the centres of four cells.
+float GroundHeight::ground_at(float x, float y) const {
+  const float half = kCells / 2.0F - 0.5F;
+  const float u = std::clamp(x / kCell + half, 0.0F, kCells - 1.001F);
+  const float v = std::clamp(y / kCell + half, 0.0F, kCells - 1.001F);
+  const int column = static_cast<int>(u), row = static_cast<int>(v);
+  const float fu = u - static_cast<float>(column), fv = v - static_cast<float>(row);
+  const float* corner = &lowest_[static_cast<std::size_t>(row) * kCells + column];
+  return (1 - fv) * ((1 - fu) * corner[0] + fu * corner[1]) +
+         fv * ((1 - fu) * corner[kCells] + fu * corner[kCells + 1]);
+}
+
+void GroundHeight::estimate(const RangeImage& image) {
+  find_normals(image);
+  find_up();
+  level(image);
+  find_lowest(image);
+  limit_slope();
+  height_.assign(image.size(), 0.0F);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (!image.valid(i)) continue;
+    height_[i] = level_[i].z() - ground_at(level_[i].x(), level_[i].y());
+    if (std::abs(height_[i]) > 1e3F) height_[i] = 0;  // no ground was seen at all
+  }
+}
+
+}  // namespace saker::segmentation

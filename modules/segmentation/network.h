@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace saker::segmentation {
+
+/// The probability of each class at each pixel: class × row × column.
+struct PixelProbabilities {
+  int classes = 0, rows = 0, columns = 0;
+  std::vector<float> values;
+};
+
+/// The network of tools/training/model.py, by OpenCV's DNN on one thread. The image is wrapped
+/// around by 16 columns at each side, so that there is no seam, and its rows are filled up to a
+/// multiple of 8. One instance a thread.
+class Network {
+ public:
+  /// `weights` are the bytes of the ONNX file; `file` is for messages. Throws Error where they are
+  /// not a network of that many input channels and classes.
+  Network(const std::string& weights, const std::filesystem::path& file, int channels, int classes);
+  ~Network();
+  Network(Network&&) noexcept;
+  Network& operator=(Network&&) noexcept;
+
+  /// `features`: channel × row × column.
+  const PixelProbabilities& run(const std::vector<float>& features, int rows, int columns);
+
+ private:
+  struct Memory;
+  void pad(const std::vector<float>& features, int rows, int columns);
+
+  std::unique_ptr<Memory> memory_;
+  PixelProbabilities result_;
+};
+
+}  // namespace saker::segmentation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/config.h"
+#include "lidar/scan.h"
+#include "objects/class_table.h"
+#include "segmentation/back_projection.h"
+#include "segmentation/features.h"
+#include "segmentation/network.h"
+#include "segmentation/range_image.h"
+
+namespace saker::segmentation {
+
+struct SegmentationConfig {
+  std::string model = "models/segmentation.onnx";
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field(
+        "model", model, "",
+        "weights (ONNX), with their description beside them (.yaml); as given, else in configs/");
+  }
+};
+
+/// Where the weights are: the path as given, else below the configuration folder (SAKER_CONFIG_DIR
+/// in the environment, the repository's configs/ beside the build's programs, or that of the
+/// build). Throws Error that names where it was looked for.
+[[nodiscard]] std::filesystem::path find_model(const std::string& model);
+
+/// Stage 2: reads a scan (lidar; deskewed or not, organised or not, any number of beams), makes the
+/// class and its probability for every point (for detection).
+///
+/// Frames: the scan's lidar frame; up is found in the scan itself (ground_height.h), so a tilted
+/// sensor at any height will do. Method: range image (range_image.h), geometry per pixel
+/// (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut down, as the
+/// paper's sec. IV-A does (network.h; trained by tools/training on simulated scans only), back to
+/// the points (back_projection.h). A scan without finite points is all `other` with probability 0.
+/// Cost: README.md. One thread, one instance a thread; the same scan gives the same bytes.
+class Segmentation {
+ public:
+  /// Throws Error: a missing or wrong model, or a description that does not fit the class table.
+  Segmentation(const SegmentationConfig& config, const objects::ClassTable& table);
+
+  /// The classes are indices into the table.
+  [[nodiscard]] lidar::Labels segment(const lidar::Scan& scan);
+
+ private:
+  SegmentationConfig config_;
+  Network network_;
+  RangeImage image_;
+  Features features_;
+  BackProjection back_projection_;
+};
+
+}  // namespace saker::segmentation

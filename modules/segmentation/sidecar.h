@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "objects/class_table.h"
+
+namespace saker::segmentation {
+
+/// What a model is: the file beside the weights, MODEL.yaml beside MODEL.onnx. Besides what is read
+/// here it holds the provenance: sensors, scenario, seed, commit, steps, figures.
+struct Sidecar {
+  std::vector<std::string> classes;   ///< in the order of the network's output
+  std::vector<std::string> channels;  ///< in the order of its input
+  std::string sha256;                 ///< of the weights' file
+};
+
+/// Throws Error where the file is not there or a key is missing or of the wrong type.
+[[nodiscard]] Sidecar read_sidecar(const std::filesystem::path& file);
+
+/// Throws Error where the classes are not the table's, the channels not those that features.h
+/// makes, or the weights not those that the sidecar describes.
+void check_sidecar(const Sidecar& sidecar, const std::filesystem::path& file,
+                   const objects::ClassTable& table, const std::string& weights);
+
+}  // namespace saker::segmentation

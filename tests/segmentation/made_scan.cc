@@ -1,0 +1,61 @@
+#include "made_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace saker::segmentation::testing {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kWallTop = 4;
+
+/// Distance along a ray in level coordinates to the ground or the wall; NaN: neither.
+float cast(const Eigen::Vector3f& ray, float height, float wall) {
+  const float level = ray.head<2>().norm();
+  const float at_wall = wall / std::max(level, 1e-6F);
+  const float at_ground = ray.z() < 0 ? -height / ray.z() : 1e9F;
+  if (at_ground < at_wall) return at_ground;
+  return at_wall * ray.z() + height < kWallTop ? at_wall : NAN;
+}
+
+}  // namespace
+
+lidar::Scan MadeScan::organised() const {
+  lidar::Scan scan;
+  scan.rows = rows;
+  scan.columns = columns;
+  for (int row = 0; row < rows; ++row) {
+    const float elevation =
+        (15 - 40 * static_cast<float>(row) / static_cast<float>(rows - 1)) * kPi / 180;
+    for (int column = 0; column < columns; ++column) {
+      const float azimuth =
+          kPi - 2 * kPi * (static_cast<float>(column) + 0.5F) / static_cast<float>(columns);
+      const Eigen::Vector3f ray(std::cos(elevation) * std::cos(azimuth),
+                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      scan.points.push_back(cast(tilt * ray, height_m, wall_m) * ray);
+    }
+  }
+  scan.reflectivity.assign(scan.size(), 0.5F);
+  scan.offset_ns.assign(scan.size(), 0);
+  return scan;
+}
+
+RingFile ring_by_ring(const lidar::Scan& organised) {
+  RingFile file;
+  const int columns = organised.columns, half = columns / 2;
+  for (int row = 0; row < organised.rows; ++row) {
+    for (int k = 0; k < columns; ++k) {
+      const int column = (half - 1 - k + columns) % columns;
+      const Eigen::Vector3f& p = organised.points[static_cast<std::size_t>(row) * columns + column];
+      if (!p.allFinite()) continue;
+      file.scan.points.push_back(p);
+      file.row.push_back(row);
+    }
+  }
+  file.scan.reflectivity.assign(file.scan.size(), 0.5F);
+  file.scan.offset_ns.assign(file.scan.size(), 0);
+  return file;
+}
+
+}  // namespace saker::segmentation::testing

@@ -1,0 +1,77 @@
+#include "segmentation/network.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "core/error.h"
+#include "segmentation/features.h"
+
+namespace saker::segmentation {
+namespace {
+
+const std::string kFolder = SAKER_SOURCE_DIR "/tests/segmentation/small/";
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream stream(kFolder + file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<float> floats_of(const std::string& file) {
+  const std::string bytes = bytes_of(file);
+  std::vector<float> values(bytes.size() / sizeof(float));
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
+  return values;
+}
+
+constexpr int kRows = 10, kColumns = 48, kClasses = 5;
+
+/// A small network of the same kind with weights at random, its input and what PyTorch makes of it
+/// (tools/training/small_network.py).
+class SmallNetwork : public ::testing::Test {
+ protected:
+  Network network_{bytes_of("network.onnx"), "network.onnx", kChannelCount, kClasses};
+  std::vector<float> features_ = floats_of("features.f32");
+};
+
+TEST_F(SmallNetwork, GivesWhatPyTorchGives) {
+  const std::vector<float> expected = floats_of("probabilities.f32");
+  const PixelProbabilities& found = network_.run(features_, kRows, kColumns);
+  ASSERT_EQ(found.values.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(found.values[i], expected[i], 1e-3);
+}
+
+TEST_F(SmallNetwork, GivesTheSameBytesTwiceAndAfterAnotherSize) {
+  const std::vector<float> first = network_.run(features_, kRows, kColumns).values;
+  (void)network_.run(std::vector<float>(kChannelCount * 16 * 64, 0.5F), 16, 64);
+  EXPECT_EQ(network_.run(features_, kRows, kColumns).values, first);
+}
+
+TEST_F(SmallNetwork, HasNoSeam) {
+  const std::vector<float> straight = network_.run(features_, kRows, kColumns).values;
+  constexpr int kTurn = 16;  // a multiple of the network's strides
+  std::vector<float> turned(features_.size());
+  auto from = [](std::size_t i) {
+    return i / kColumns * kColumns + (i % kColumns + kTurn) % kColumns;
+  };
+  for (std::size_t i = 0; i < turned.size(); ++i) turned[i] = features_[from(i)];
+  const std::vector<float> found = network_.run(turned, kRows, kColumns).values;
+  double difference = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    difference += std::abs(found[i] - straight[from(i)]);
+  EXPECT_LT(difference / static_cast<double>(found.size()), 0.01);
+}
+
+TEST(Network, RefusesWhatIsNoNetworkOfTheRightShape) {
+  const std::string good = bytes_of("network.onnx");
+  EXPECT_THROW(Network("not a network", "x.onnx", kChannelCount, kClasses), Error);
+  EXPECT_THROW(Network("", "x.onnx", kChannelCount, kClasses), Error);
+  EXPECT_THROW(Network(good.substr(0, good.size() / 2), "x.onnx", kChannelCount, kClasses), Error);
+  EXPECT_THROW(Network(good, "x.onnx", kChannelCount, kClasses + 1), Error);
+  EXPECT_THROW(Network(good, "x.onnx", kChannelCount + 1, kClasses), Error);
+}
+
+}  // namespace
+}  // namespace saker::segmentation

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "lidar/recording.h"
+#include "saker/configuration.h"
+#include "saker/output.h"
+#include "segmentation/segmentation.h"
+
+namespace saker::tools {
+namespace {
+
+struct SegmentOptions {
+  std::string input;
+  std::string metadata;
+};
+
+template <class T>
+void write_values(const std::filesystem::path& file, const std::vector<T>& values) {
+  const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                               values.size() * sizeof(T));
+  core::write_file(file, bytes);
+}
+
+/// SemanticKITTI ids and probabilities, one a point, in the order of the input.
+void write_labels(const OutputFolder& out, const std::string& name, const lidar::Labels& labels,
+                  const objects::ClassTable& table) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(labels.classes.size());
+  for (const std::uint8_t id : labels.classes) ids.push_back(table.label_of(id));
+  write_values(out / ("labels/" + name + ".label"), ids);
+  write_values(out / ("probability/" + name + ".f32"), labels.probability);
+}
+
+int segment(const SegmentOptions& options, const CommonOptions& common) {
+  const autonomy::Config config = read_configuration(common);
+  segmentation::Segmentation stage(config.segmentation, config.objects);
+  const auto source =
+      lidar::open_recording(options.input, lidar::RecordingFormat::kAutomatic, options.metadata);
+  const OutputFolder out(common);
+  out.folder("labels");
+  out.folder("probability");
+  core::Progress progress("segment", source->expected_scans());
+  int done = 0, faulty = 0;
+  while (const auto frame = source->next()) {
+    if (frame->fault.empty()) {
+      write_labels(out, frame->name, stage.segment(frame->scan), config.objects);
+    } else {
+      spdlog::warn("{}: {}", frame->name, frame->fault);
+      ++faulty;
+    }
+    progress.update(++done);
+  }
+  spdlog::info("{} scans, {} of them could not be read", done, faulty);
+  if (done == faulty) throw Error(options.input + ": no scan could be read");
+  return 0;
+}
+
+}  // namespace
+
+void add_segment(Commands& commands) {
+  auto options = std::make_shared<SegmentOptions>();
+  CLI::App& app = commands.add(
+      {.name = "segment",
+       .does =
+           "class and probability of every point: OUT/labels/STEM.label, OUT/probability/STEM.f32",
+       .output = Output::folder,
+       .example = "saker segment drive/velodyne -o out"},
+      [options](const CommonOptions& common) { return segment(*options, common); });
+  app.add_option("INPUT", options->input, "folder of KITTI scans, or an Ouster capture (*.pcap)")
+      ->required();
+  app.add_option("--meta", options->metadata, "metadata (JSON) of a capture; else beside it")
+      ->type_name("FILE");
+}
+
+}  // namespace saker::tools

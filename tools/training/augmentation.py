@@ -1,0 +1,83 @@
+"""Changes to an image of points that a network must not care about, so that what it learns in simulation carries over to sensors and
+places it has never seen. All take and return (points (rows, columns, 3), labels (rows, columns)); NaN where nothing returned.
+"""
+import numpy as np
+
+
+def rotation(roll, pitch, yaw):
+    cr, sr, cp, sp, cy, sy = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
+    return np.array([[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+                     [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+                     [-sp, cp * sr, cp * cr]], np.float32)
+
+
+def fewer_beams(points, labels, factor, rng):
+    """Every second or fourth row: a sensor of 32 or 16 beams."""
+    first = rng.integers(factor)
+    return points[first::factor], labels[first::factor]
+
+
+def fewer_columns(points, labels, rng):
+    """Every second column: the sensor's faster mode."""
+    first = rng.integers(2)
+    return points[:, first::2], labels[:, first::2]
+
+
+def roll(points, labels, rng):
+    by = rng.integers(points.shape[1])
+    return np.roll(points, by, 1), np.roll(labels, by, 1)
+
+
+def mirror(points, labels):
+    return points[:, ::-1] * np.float32([1, -1, 1]), labels[:, ::-1]
+
+
+def tilt(points, labels, rng, most=0.17):
+    """The sensor banks; the network must find up by itself. Scale: objects are not always of the simulator's sizes."""
+    turn = rotation(*rng.uniform(-most, most, 2), 0) * np.float32(rng.uniform(0.9, 1.1))
+    return points @ turn.T, labels
+
+
+def noise(points, labels, rng):
+    """Range noise, and beams whose elevation is not quite what the calibration says."""
+    distance = np.linalg.norm(points, axis=-1, keepdims=True)
+    sigma = rng.uniform(0.003, 0.04)
+    points = points * (1 + rng.normal(0, sigma, distance.shape).astype(np.float32) / np.maximum(distance, 0.5))
+    level = np.linalg.norm(points[..., :2], axis=-1)
+    shift = rng.normal(0, rng.uniform(0, 0.003), (len(points), 1)).astype(np.float32)
+    lifted = points.copy()
+    lifted[..., 2] += level * shift
+    return lifted, labels
+
+
+def drop_out(points, labels, rng):
+    """Lone pixels everywhere, and patches where a surface returns nothing (glass, wet asphalt, black paint)."""
+    rows, columns = labels.shape
+    gone = rng.random(labels.shape, np.float32) < rng.uniform(0, 0.12) ** 1.5
+    for _ in range(rng.integers(0, 12)):
+        height, width = rng.integers(1, max(2, rows // 6)), rng.integers(2, 40)
+        r, c = rng.integers(rows), rng.integers(columns)
+        gone[r:r + height, c:c + width] |= rng.random(gone[r:r + height, c:c + width].shape) < rng.uniform(0.3, 1)
+    points, labels = points.copy(), labels.copy()
+    points[gone] = np.nan
+    labels[gone] = 255
+    return points, labels
+
+
+def nearer_first(front, labels_front, back, labels_back, shown):
+    """What of `front` (where `shown`) hides of `back`: a scan with objects of another scan pasted in at their own place."""
+    near = np.linalg.norm(front, axis=-1)
+    far = np.linalg.norm(back, axis=-1)
+    take = shown & (near < np.where(np.isfinite(far), far, np.inf))
+    return np.where(take[..., None], front, back), np.where(take, labels_front, labels_back)
+
+
+def augment(points, labels, rng):
+    """One random view of a scan."""
+    points, labels = roll(points, labels, rng)
+    if rng.random() < 0.5:
+        points, labels = mirror(points, labels)
+    points, labels = noise(points, labels, rng)
+    if rng.random() < 0.7:
+        points, labels = tilt(points, labels, rng)
+    return drop_out(points, labels, rng)

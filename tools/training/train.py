@@ -1,0 +1,151 @@
+"""Trains the segmentation network on simulated scans.
+
+usage: train.py SCANS -o OUT [--steps N] [--measure FOLDER …]
+
+SCANS: what `saker simulate-scans configs/scenarios/training.yaml` wrote. The last twentieth of the scans is held out and measured every
+few minutes, with the folders of --measure (never used for anything but that figure). OUT/checkpoint.pt is written every few minutes and
+taken up again by the same command. Cross-entropy with class weights plus soft Dice, AdamW, one cycle, bfloat16, and an exponential
+average of the weights, which is what is exported (export.py).
+"""
+import argparse
+import copy
+import math
+import pathlib
+import time
+
+import torch
+import torch.nn.functional as F
+
+import dataset
+import evaluation
+import inputs
+import labels as classes
+import model as network
+
+CLASS_WEIGHTS = torch.tensor([1.0, 2.0, 4.0, 5.0, 0.8])
+
+
+def loss_of(output, truth):
+    """Cross-entropy and soft Dice over the batch; classes that are not in it count in the first only."""
+    scores = network.scores(output).float()
+    entropy = F.cross_entropy(scores, truth, CLASS_WEIGHTS, ignore_index=classes.IGNORED, label_smoothing=0.02)
+    known = (truth != classes.IGNORED).unsqueeze(1)
+    probability = scores.softmax(1) * known
+    target = F.one_hot(torch.where(known[:, 0], truth, 0), len(classes.CLASSES)).permute(0, 3, 1, 2) * known
+    both, size = (probability * target).sum((0, 2, 3)), (probability + target).sum((0, 2, 3))
+    there = target.sum((0, 2, 3)) > 20
+    dice = 1 - 2 * both / (size + 1)
+    return entropy + dice[there].mean()
+
+
+def rate(step, steps, highest):
+    """Warm-up, then half a cosine."""
+    warm = min(300, steps // 10)
+    if step < warm:
+        return highest * (step + 1) / warm
+    return highest * 0.5 * (1 + math.cos(math.pi * (step - warm) / (steps - warm)))
+
+
+class Trainer:
+    def __init__(self, args):
+        self.args = args
+        torch.manual_seed(args.seed)
+        self.model = network.RangeNet(inputs.CHANNELS, len(classes.CLASSES), args.widths).to(memory_format=torch.channels_last)
+        self.average = copy.deepcopy(self.model).eval()
+        self.optimizer = torch.optim.AdamW(self.model.parameters(), lr=args.rate, weight_decay=0.01)
+        self.step = 0
+        self.checkpoint = args.out / "checkpoint.pt"
+        if self.checkpoint.exists():
+            self._resume()
+
+    def _resume(self):
+        state = torch.load(self.checkpoint)
+        self.step = state["step"]
+        self.model.load_state_dict(state["model"])
+        self.average.load_state_dict(state["average"])
+        self.optimizer.load_state_dict(state["optimizer"])
+
+    def save(self):
+        state = {"step": self.step, "config": self.model.config, "model": self.model.state_dict(),
+                 "average": self.average.state_dict(), "optimizer": self.optimizer.state_dict(),
+                 "seed": self.args.seed, "steps": self.args.steps, "scans": str(self.args.scans)}
+        temporary = self.checkpoint.with_suffix(".new")
+        torch.save(state, temporary)
+        temporary.replace(self.checkpoint)
+
+    def train_batch(self, values, truth):
+        for group in self.optimizer.param_groups:
+            group["lr"] = rate(self.step, self.args.steps, self.args.rate)
+        self.model.train()
+        with torch.cpu.amp.autocast(dtype=torch.bfloat16):
+            output = self.model(values.to(memory_format=torch.channels_last))
+        loss = loss_of(output, truth)
+        self.optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(self.model.parameters(), 5.0)
+        self.optimizer.step()
+        self.step += 1
+        self._update_average()
+        return loss.item()
+
+    def _update_average(self):
+        keep = min(0.998, (self.step + 1) / (self.step + 20))
+        with torch.no_grad():
+            for mean, value in zip(self.average.state_dict().values(), self.model.state_dict().values()):
+                if mean.dtype.is_floating_point:
+                    mean.lerp_(value, 1 - keep)
+                else:
+                    mean.copy_(value)
+
+    def measure(self, held_out):
+        print(f"step {self.step} held out: {evaluation.report(evaluation.evaluate(self.average, held_out))}", flush=True)
+        for folder in self.args.measure:
+            figures = evaluation.report(evaluation.evaluate(self.average, dataset.files(folder)))
+            print(f"step {self.step} {folder}: {figures}", flush=True)
+
+
+def batches(args, first):
+    images = dataset.Images(args.scans)
+    chosen = list(range(len(images) - max(1, len(images) // 20)))
+    data = dataset.Batches(images, chosen, args.batch, args.width, args.seed)
+    return torch.utils.data.DataLoader(data, batch_size=None, sampler=range(first, args.steps), num_workers=args.workers,
+                                       prefetch_factor=4 if args.workers else 2)
+
+
+def run(args):
+    args.out.mkdir(parents=True, exist_ok=True)
+    torch.set_num_threads(args.threads)
+    trainer = Trainer(args)
+    every = dataset.files(args.scans)
+    held_out = every[-max(1, len(every) // 20):][:40]
+    mean, saved = None, time.time()
+    for values, truth in batches(args, trainer.step):
+        loss = trainer.train_batch(values, truth)
+        mean = loss if mean is None else 0.98 * mean + 0.02 * loss
+        if trainer.step % 100 == 0:
+            print(f"step {trainer.step} of {args.steps}: loss {mean:.4f}, {time.strftime('%H:%M:%S')}", flush=True)
+        if time.time() - saved > args.save_every or trainer.step == args.steps:
+            trainer.save()
+            trainer.measure(held_out)
+            saved = time.time()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scans", type=pathlib.Path)
+    parser.add_argument("-o", "--out", type=pathlib.Path, required=True)
+    parser.add_argument("--steps", type=int, default=24000)
+    parser.add_argument("--batch", type=int, default=4)
+    parser.add_argument("--width", type=int, default=512, help="columns of a crop")
+    parser.add_argument("--rate", type=float, default=2e-3)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--widths", type=int, nargs=4, default=[24, 40, 64, 128])
+    parser.add_argument("--save-every", type=float, default=240, help="s")
+    parser.add_argument("--measure", type=pathlib.Path, nargs="*", default=[], help="folders of labelled scans to measure on")
+    run(parser.parse_args())
+
+
+if __name__ == "__main__":
+    main()
