@@ -49,6 +49,24 @@ objects::ObjectMap truth_map(const World& world, const SE3& T_world_sim,
   return map;
 }
 
+/// Returns from the part of an object that its model describes: from a trunk, not from its crown.
+void count_hits(const World& world, const CastScan& scan, std::vector<int>& hits) {
+  const objects::ClassTable table;
+  for (std::size_t i = 0; i < scan.objects.size(); ++i) {
+    if (scan.range_m[i] <= 0 || scan.objects[i] == 0) continue;
+    const std::string& of = world.objects[scan.objects[i] - 1].class_name;
+    hits[scan.objects[i]] += table[table.of_label(scan.labels[i])].name == of;
+  }
+}
+
+void drive(const FlightWorld& world, double t, RayCaster& caster) {
+  for (const Driver& driver : world.drivers) {
+    const SE3 T = world.built.terrain.on_ground(driver.start_s + driver.speed_mps * t, driver.d,
+                                                driver.speed_mps > 0 ? 0 : M_PI);
+    caster.move(driver.index, Eigen::Affine3d(T.matrix()).cast<float>());
+  }
+}
+
 /// A flight under way: what is written scan by scan.
 class Recorder {
  public:
@@ -102,8 +120,9 @@ void write_flight(const FlightConfig& config, std::uint64_t seed,
   const core::Rng base(seed);
   core::Rng path_rng = base.fork(10);
   core::Rng imu_rng = base.fork(11);
-  const BuiltWorld built = build_flight_world(c, seed);
-  const RayCaster caster(built.world);
+  const FlightWorld flight_world = build_flight_world(c, seed);
+  const BuiltWorld& built = flight_world.built;
+  RayCaster caster(built.world);
   const FlightPath path(c, built.terrain, path_rng);
   Recorder recorder(c, seed, folder);
   const lidar::SensorInfo& info = recorder.info();
@@ -117,10 +136,11 @@ void write_flight(const FlightConfig& config, std::uint64_t seed,
   const int scans = static_cast<int>(c.duration_s / kScanPeriod);
   for (int i = 0; i < scans; ++i) {
     const double t = i * kScanPeriod;
+    const auto time_of = [&](int column) { return t + column * info.column_period_s(); };
     const CastScan scan =
-        scanner.cast([&](int column) { return path.pose(t + column * info.column_period_s()); }, i);
-    for (std::size_t k = 0; k < scan.objects.size(); ++k)
-      hits[scan.objects[k]] += scan.range_m[k] > 0;
+        scanner.cast([&](int column) { return path.pose(time_of(column)); }, i,
+                     [&](int column) { drive(flight_world, time_of(column), caster); });
+    count_hits(built.world, scan, hits);
     const Time start = kStart + from_seconds(t);
     recorder.record(scan, i, T_world_sim * path.pose(t + last_column), start,
                     start + from_seconds(last_column),

@@ -8,9 +8,22 @@
 
 namespace saker::simulation {
 
+/// A vehicle that drives along the street: mover `index` of the world.
+struct Driver {
+  std::size_t index = 0;
+  double start_s = 0;    ///< m along the street at the start of the flight
+  double d = 0;          ///< m to the left of its middle
+  double speed_mps = 0;  ///< along the street; < 0: the other way
+};
+
+struct FlightWorld {
+  BuiltWorld built;
+  std::vector<Driver> drivers;
+};
+
 /// A street with a car park beside it, for a flight: all five kinds of cars, trees and lamps along
 /// it.
-[[nodiscard]] BuiltWorld build_flight_world(const FlightConfig& config, std::uint64_t seed);
+[[nodiscard]] FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed);
 
 /// One flight into the folder: flight.pcap and flight.json (the capture), truth.json (objects in
 /// the `world` frame: the levelled lidar frame at the first scan's stamp), trajectory_truth.txt

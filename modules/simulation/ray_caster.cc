@@ -2,6 +2,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -67,74 +69,129 @@ RTCRayHit ray_of(const Shot& shot, float far) {
   return ray;
 }
 
+/// A placed prototype: what a hit on it belongs to.
+struct Instance {
+  const Mesh* mesh;
+  Eigen::Matrix3f normal_matrix;  ///< inverse transpose of its transform
+  ObjectId object;
+};
+
+Instance instance_for(const World& world, const Placement& placement) {
+  return {&world.prototypes[placement.prototype],
+          placement.T_world_prototype.linear().inverse().transpose(), placement.object};
+}
+
 }  // namespace
 
 struct RayCaster::Scene {
   explicit Scene(const World& made_of)
-      : world(&made_of), device(new_device()), top(rtcNewScene(device)) {}
+      : world(&made_of),
+        device(new_device()),
+        still(rtcNewScene(device)),
+        moving(rtcNewScene(device)) {}
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
   ~Scene() {
-    rtcReleaseScene(top);
+    for (RTCGeometry mover : mover_geometries) rtcReleaseGeometry(mover);
+    rtcReleaseScene(moving);
+    rtcReleaseScene(still);
     for (RTCScene prototype : prototypes) rtcReleaseScene(prototype);
     rtcReleaseDevice(device);
   }
 
+  void add_still(const Placement& placement) {
+    attach(still, instance_of(device, prototypes[placement.prototype], placement));
+    placed.push_back(instance_for(*world, placement));
+  }
+  void add_mover(const Placement& placement) {
+    RTCGeometry geometry = instance_of(device, prototypes[placement.prototype], placement);
+    rtcAttachGeometry(moving, geometry);
+    mover_geometries.push_back(geometry);
+    movers.push_back(instance_for(*world, placement));
+  }
+
   const World* world;
   RTCDevice device;
-  RTCScene top;
+  RTCScene still;   ///< geometry 0: the world's mesh; placement i is geometry i + 1
+  RTCScene moving;  ///< mover i is geometry i
   std::vector<RTCScene> prototypes;
+  std::vector<Instance> placed;
+  std::vector<Instance> movers;
+  std::vector<RTCGeometry> mover_geometries;
 };
 
 RayCaster::RayCaster(const World& world) : scene_(std::make_unique<Scene>(world)) {
   Scene& s = *scene_;
   for (const Mesh& mesh : world.prototypes) s.prototypes.push_back(scene_of(s.device, mesh));
-  attach(s.top, triangles_of(s.device, world.mesh));  // geometry 0; placement i is geometry i + 1
-  for (const Placement& placement : world.placements) {
-    attach(s.top, instance_of(s.device, s.prototypes[placement.prototype], placement));
-  }
-  rtcCommitScene(s.top);
+  attach(s.still, triangles_of(s.device, world.mesh));
+  for (const Placement& placement : world.placements) s.add_still(placement);
+  for (const Placement& mover : world.movers) s.add_mover(mover);
+  rtcCommitScene(s.still);
+  rtcCommitScene(s.moving);
 }
 
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 
+void RayCaster::move(std::size_t index, const Eigen::Affine3f& T_world_prototype) {
+  RTCGeometry geometry = scene_->mover_geometries[index];
+  const Eigen::Matrix4f matrix = T_world_prototype.matrix();
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, matrix.data());
+  rtcCommitGeometry(geometry);
+  rtcCommitScene(scene_->moving);
+  scene_->movers[index].normal_matrix = T_world_prototype.linear().inverse().transpose();
+}
+
 namespace {
 
-/// What triangle was met, of which object.
-void read_hit(const World& world, const RTCRayHit& ray, Shot& shot) {
+void read_instance(const Instance& instance, const RTCRayHit& ray, Shot& shot) {
+  const Eigen::Vector3f normal =
+      instance.normal_matrix * Eigen::Vector3f(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
+  shot.material = instance.mesh->materials[ray.hit.primID];
+  shot.object = instance.object;
+  shot.distance = ray.ray.tfar;
+  shot.cosine = std::abs(normal.dot(shot.direction)) / std::max(normal.norm(), 1e-12F);
+}
+
+/// What triangle of what stands still was met, of which object.
+void read_hit(const Mesh& mesh, std::span<const Instance> placed, const RTCRayHit& ray,
+              Shot& shot) {
   shot.hit = ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   if (!shot.hit) return;
-  shot.distance = ray.ray.tfar;
-  Eigen::Vector3f normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
-  const bool instanced = ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-  if (instanced) {
-    const Placement& placement = world.placements[ray.hit.instID[0] - 1];
-    normal = placement.T_world_prototype.linear().inverse().transpose() * normal;
-    shot.material = world.prototypes[placement.prototype].materials[ray.hit.primID];
-    shot.object = placement.object;
-  } else {
-    shot.material = world.mesh.materials[ray.hit.primID];
-    shot.object = world.mesh.objects[ray.hit.primID];
+  if (ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    read_instance(placed[ray.hit.instID[0] - 1], ray, shot);
+    return;
   }
-  const float length = normal.norm();
-  shot.cosine = length > 0 ? std::abs(normal.dot(shot.direction)) / length : 0;
+  const Eigen::Vector3f normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
+  shot.material = mesh.materials[ray.hit.primID];
+  shot.object = mesh.objects[ray.hit.primID];
+  shot.distance = ray.ray.tfar;
+  shot.cosine = std::abs(normal.dot(shot.direction)) / std::max(normal.norm(), 1e-12F);
 }
 
 }  // namespace
 
 void RayCaster::cast(std::span<Shot> shots, float far) const {
   constexpr std::size_t kBlock = 256;
+  const Scene& s = *scene_;
   std::array<RTCRayHit, kBlock> rays;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (std::size_t first = 0; first < shots.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, shots.size() - first);
-    for (std::size_t i = 0; i < count; ++i) rays[i] = ray_of(shots[first + i], far);
-    rtcIntersect1M(scene_->top, &context, rays.data(), static_cast<unsigned>(count),
-                   sizeof(RTCRayHit));
-    for (std::size_t i = 0; i < count; ++i) read_hit(*scene_->world, rays[i], shots[first + i]);
+    const auto count = static_cast<unsigned>(std::min(kBlock, shots.size() - first));
+    for (unsigned i = 0; i < count; ++i) rays[i] = ray_of(shots[first + i], far);
+    rtcIntersect1M(s.still, &context, rays.data(), count, sizeof(RTCRayHit));
+    for (unsigned i = 0; i < count; ++i)
+      read_hit(s.world->mesh, s.placed, rays[i], shots[first + i]);
+    if (s.movers.empty()) continue;
+    for (unsigned i = 0; i < count; ++i) rays[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1M(s.moving, &context, rays.data(), count, sizeof(RTCRayHit));
+    for (unsigned i = 0; i < count; ++i) {
+      if (rays[i].hit.instID[0] == RTC_INVALID_GEOMETRY_ID) continue;
+      shots[first + i].hit = true;
+      read_instance(s.movers[rays[i].hit.instID[0]], rays[i], shots[first + i]);
+    }
   }
 }
 

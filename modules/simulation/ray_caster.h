@@ -27,6 +27,9 @@ class RayCaster {
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
 
+  /// Puts mover `index` of the world somewhere else.
+  void move(std::size_t index, const Eigen::Affine3f& T_world_prototype);
+
   /// Fills in what each ray meets within `far` metres. Rays in an order in which neighbours run
   /// alike are fastest.
   void cast(std::span<Shot> shots, float far) const;

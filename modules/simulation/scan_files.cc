@@ -37,7 +37,8 @@ void write_row(std::ostream& out, const SE3& T) {
   char number[40];
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
-      std::snprintf(number, sizeof(number), "%s%.9g", row + column > 0 ? " " : "", T(row, column));
+      const double value = std::abs(T(row, column)) < 1e-12 ? 0 : T(row, column);
+      std::snprintf(number, sizeof(number), "%s%.9g", row + column > 0 ? " " : "", value);
       out << number;
     }
   }

@@ -142,13 +142,15 @@ void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, Cas
   scan.objects[i] = shot.object;
 }
 
-CastScan Scanner::cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index) const {
+CastScan Scanner::cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index,
+                       const BeforeColumn& before) const {
   core::Rng rng = rng_.fork(scan_index + 1);
   CastScan scan = empty_scan(beams_.rows, beams_.columns);
   Job job;
   for (int first = 0; first < beams_.columns; first += kColumnsAtOnce) {
     const int end = std::min(first + kColumnsAtOnce, beams_.columns);
     job.shots.clear();
+    if (before) before(first);
     for (int column = first; column < end; ++column)
       aim(column, T_world_lidar(column), rng, job.shots);
     trace(job, rng);

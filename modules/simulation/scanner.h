@@ -54,6 +54,8 @@ struct CastScan {
 
 /// T_world_lidar at the time of a column.
 using PoseOfColumn = std::function<SE3(int column)>;
+/// Called before columns are cast: brings the world to the time of the given one.
+using BeforeColumn = std::function<void(int column)>;
 
 /// Casts revolutions of one sensor through one world: where each beam goes, what comes back and how
 /// far it seems.
@@ -66,8 +68,8 @@ class Scanner {
   Scanner(const RayCaster& caster, const World& world, BeamTable beams,
           const ReceiverConfig& config, std::uint64_t seed);
 
-  /// \param first, count columns to cast; the others stay without return.
-  [[nodiscard]] CastScan cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index) const;
+  [[nodiscard]] CastScan cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index,
+                              const BeforeColumn& before = nullptr) const;
 
   [[nodiscard]] const BeamTable& beams() const { return beams_; }
 

@@ -84,7 +84,7 @@ struct FlightConfig {
   double sway_m = 1.2;
   double look_around_deg = 15;
   double vibration_deg = 0.15;
-  double parked_share = 0.5;
+  double parked_share = 0.4;
   int moving_vehicles = 0;
   bool labels = false;
   bool cast = false;

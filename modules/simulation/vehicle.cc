@@ -79,22 +79,45 @@ VehicleShape add_vehicle(World& world, const Palette& palette, VehicleKind kind,
   return add_vehicle(world, palette, random_shape(kind, rng), T_world_ground, moving, rng);
 }
 
-VehicleShape add_vehicle(World& world, const Palette& palette, const VehicleShape& shape,
-                         const SE3& T_world_ground, bool moving, core::Rng& rng) {
+namespace {
+
+void draw(World& world, const Palette& palette, const VehicleShape& shape, const Pen& pen,
+          core::Rng& rng) {
   const std::uint16_t label = label_of(shape.kind);
   const MaterialId paint = world.add(random_paint(label, rng));
   const MaterialId glass = world.add(vehicle_glass(label, rng));
-  objects::Cuboid cuboid;
-  cuboid.pose = T_world_ground * placed(0, 0, shape.height / 2);
-  cuboid.size = {shape.length, shape.width, shape.height};
-  const ObjectId id = world.add({"vehicle", name_of(shape.kind), cuboid, moving});
-  const Pen pen(world.mesh, T_world_ground, id);
   if (label == kCar) {
     draw_vehicle(shape, palette, paint, glass, pen);
   } else {
     draw_heavy(shape, palette, paint, glass, pen);
   }
+}
+
+TrueObject true_vehicle(const VehicleShape& shape, const SE3& T_world_ground, bool moving) {
+  objects::Cuboid cuboid;
+  cuboid.pose = T_world_ground * placed(0, 0, shape.height / 2);
+  cuboid.size = {shape.length, shape.width, shape.height};
+  return {"vehicle", name_of(shape.kind), cuboid, moving};
+}
+
+}  // namespace
+
+VehicleShape add_vehicle(World& world, const Palette& palette, const VehicleShape& shape,
+                         const SE3& T_world_ground, bool moving, core::Rng& rng) {
+  const ObjectId id = world.add(true_vehicle(shape, T_world_ground, moving));
+  draw(world, palette, shape, Pen(world.mesh, T_world_ground, id), rng);
   return shape;
+}
+
+std::size_t add_mover(World& world, const Palette& palette, const VehicleShape& shape,
+                      const SE3& T_world_ground, core::Rng& rng) {
+  const ObjectId id = world.add(true_vehicle(shape, T_world_ground, true));
+  Mesh mesh;
+  draw(world, palette, shape, Pen(mesh), rng);
+  world.prototypes.push_back(std::move(mesh));
+  const Eigen::Affine3d T(T_world_ground.matrix());
+  world.movers.push_back({world.prototypes.size() - 1, T.cast<float>(), id});
+  return world.movers.size() - 1;
 }
 
 }  // namespace saker::simulation

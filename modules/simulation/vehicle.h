@@ -44,6 +44,9 @@ void draw_vehicle(const VehicleShape& shape, const Palette& palette, MaterialId 
 /// only: trucks, buses and trailers are vehicles too). \return its shape.
 VehicleShape add_vehicle(World& world, const Palette& palette, VehicleKind kind,
                          const SE3& T_world_ground, bool moving, core::Rng& rng);
+/// A vehicle that drives: a mover of the world (its index is returned), in the truth as moving.
+std::size_t add_mover(World& world, const Palette& palette, const VehicleShape& shape,
+                      const SE3& T_world_ground, core::Rng& rng);
 VehicleShape add_vehicle(World& world, const Palette& palette, const VehicleShape& shape,
                          const SE3& T_world_ground, bool moving, core::Rng& rng);
 

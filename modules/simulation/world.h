@@ -31,6 +31,8 @@ struct World {
   Mesh mesh;                     ///< what stands once
   std::vector<Mesh> prototypes;  ///< crowns and bushes: thousands of leaves each
   std::vector<Placement> placements;
+  std::vector<Placement> movers;  ///< where they are at the start; RayCaster::move takes them on
+
   std::vector<Material> materials;
   std::vector<TrueObject> objects;
 

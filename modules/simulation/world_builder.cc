@@ -1,14 +1,31 @@
 #include "simulation/world_builder.h"
 
+#include <algorithm>
+
 namespace saker::simulation {
 namespace {
 
+/// How far from the middle line one can drive or walk.
+double passable(const std::vector<Strip>& strips) {
+  double width = 0;
+  for (const Strip& strip : strips) {
+    const bool open = strip.use == Use::none || strip.use == Use::lane ||
+                      strip.use == Use::sidewalk || strip.use == Use::parallel_parking ||
+                      strip.use == Use::perpendicular_parking;
+    if (!open) break;
+    width += strip.width;
+  }
+  return std::max(0.5, width - 1.3);
+}
+
 /// Places about the middle of the world that nothing stands on.
 std::vector<Eigen::Vector2d> find_free_places(Site& site, core::Rng& rng) {
+  const double left = std::min(9.0, passable(site.terrain.section().left));
+  const double right = std::min(9.0, passable(site.terrain.section().right));
   std::vector<Eigen::Vector2d> places;
   for (int attempt = 0; attempt < 400 && places.size() < 60; ++attempt) {
     const double s = rng.uniform(-45, 45);
-    const double d = rng.normal(0, 3);
+    const double d = rng.uniform(-right, left);
     if (site.claim(s, d, 1.3)) places.emplace_back(s, d);
   }
   return places;

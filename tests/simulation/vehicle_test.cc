@@ -1,0 +1,82 @@
+#include "simulation/vehicle.h"
+
+#include <gtest/gtest.h>
+
+namespace saker::simulation {
+namespace {
+
+constexpr VehicleKind kCars[] = {VehicleKind::sedan, VehicleKind::hatchback, VehicleKind::suv,
+                                 VehicleKind::van, VehicleKind::pickup};
+
+struct Drawn {
+  World world;
+  VehicleShape shape;
+};
+
+Drawn draw(VehicleKind kind, std::uint64_t seed) {
+  Drawn d;
+  core::Rng rng(seed);
+  const Palette palette = make_palette(d.world, rng);
+  d.shape = add_vehicle(d.world, palette, kind, SE3::Identity(), false, rng);
+  return d;
+}
+
+/// Largest |coordinate| over the body; mirrors stand out sideways only.
+Eigen::AlignedBox3f bounds(const World& world) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : world.mesh.vertices) box.extend(p);
+  return box;
+}
+
+TEST(Vehicle, TheTruthIsTheBodysBoxWithoutMirrors) {
+  for (const VehicleKind kind : kCars) {
+    for (std::uint64_t seed = 1; seed < 20; ++seed) {
+      const Drawn d = draw(kind, seed);
+      const auto& cuboid = std::get<objects::Cuboid>(d.world.objects.at(0).model);
+      const Eigen::AlignedBox3f box = bounds(d.world);
+      EXPECT_NEAR(box.sizes().x(), cuboid.size.x(), 0.02) << name_of(kind);
+      EXPECT_NEAR(box.max().z(), cuboid.size.z(), 0.02) << name_of(kind);
+      EXPECT_NEAR(box.min().z(), 0, 0.02) << name_of(kind);
+      EXPECT_NEAR(box.sizes().y(), cuboid.size.y() + 0.3, 0.02) << name_of(kind);  // with mirrors
+      EXPECT_NEAR(cuboid.pose.translation().z(), cuboid.size.z() / 2, 1e-9);
+    }
+  }
+}
+
+TEST(Vehicle, DimensionsAreThoseOfTheFleet) {
+  for (const VehicleKind kind : kCars) {
+    for (std::uint64_t seed = 1; seed < 200; ++seed) {
+      core::Rng rng(seed);
+      const VehicleShape s = random_shape(kind, rng);
+      EXPECT_GT(s.length, 3.5);
+      EXPECT_LT(s.length, 5.7);
+      EXPECT_GT(s.width, 1.6);
+      EXPECT_LT(s.width, 2.05);
+      EXPECT_GT(s.height, 1.35);
+      EXPECT_LT(s.height, 2.05);
+    }
+  }
+}
+
+TEST(Vehicle, TheFrontIsLowerThanTheMiddle) {
+  for (const VehicleKind kind : kCars) {
+    const Drawn d = draw(kind, 3);
+    float front = 0, middle = 0;
+    for (const Eigen::Vector3f& p : d.world.mesh.vertices) {
+      if (p.x() > d.shape.length / 2 - 0.5) front = std::max(front, p.z());
+      if (std::abs(p.x()) < 0.4F) middle = std::max(middle, p.z());
+    }
+    EXPECT_LT(front, middle - 0.3F) << name_of(kind);
+  }
+}
+
+TEST(Vehicle, ThereIsAGapUnderTheBody) {
+  const Drawn d = draw(VehicleKind::sedan, 5);
+  for (const Eigen::Vector3f& p : d.world.mesh.vertices) {
+    if (std::abs(p.x()) > 0.5F) continue;  // between the axles
+    EXPECT_GT(p.z(), 0.1F);
+  }
+}
+
+}  // namespace
+}  // namespace saker::simulation
