@@ -1,0 +1,166 @@
+#include "detection/detection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "detection/local_frame.h"
+
+namespace saker::detection {
+namespace {
+
+Eigen::Vector3d mean_of(const std::vector<ClassPoint>& points, const std::vector<int>& indices) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int i : indices) sum += points[i].position.cast<double>();
+  return sum / static_cast<double>(indices.size());
+}
+
+std::vector<Eigen::Vector3d> moved(const SE3& T, const std::vector<Eigen::Vector3d>& points) {
+  std::vector<Eigen::Vector3d> result;
+  for (const Eigen::Vector3d& p : points) result.push_back(T * p);
+  return result;
+}
+
+}  // namespace
+
+Detection::Detection(const DetectionConfig& config, const objects::ClassTable& table)
+    : config_(core::checked(config, "detection")), table_(table), ground_(config.ground) {}
+
+objects::Detections Detection::detect(std::span<const LabelledScan> window) {
+  objects::Detections result;
+  if (window.empty()) return result;
+  result.stamp = window.back().stamp;
+  gather(window, table_, config_.window, window_);
+  ground_.fit(window_.ground, config_.window.range_m);
+  detect_vehicles(result);
+  detect_trunks(result);
+  for (const objects::GroundPlane& plane : ground_.planes()) {
+    result.ground.push_back(transformed(window_.T_lidar_level, plane));
+  }
+  return result;
+}
+
+void Detection::detect_vehicles(objects::Detections& result) {
+  keep_above_ground(window_.cuboids, config_.vehicle.lowest_m, config_.vehicle.highest_m);
+  for (const Indices& cluster : clusters(window_.cuboids, nullptr, config_.vehicle_clusters)) {
+    add_vehicle(cluster, 0, result);
+  }
+}
+
+void Detection::detect_trunks(objects::Detections& result) {
+  keep_above_ground(window_.cylinders, config_.trunk.lowest_m, config_.trunk.highest_m);
+  for (const Indices& cluster : clusters(window_.cylinders, nullptr, config_.trunk_clusters)) {
+    add_trunk(cluster, result);
+  }
+}
+
+void Detection::keep_above_ground(std::vector<ClassPoint>& points, double lowest,
+                                  double highest) const {
+  std::erase_if(points, [&](const ClassPoint& point) {
+    const Eigen::Vector3d p = point.position.cast<double>();
+    const objects::GroundPlane* ground = ground_.at(p);
+    if (!ground) return true;
+    const double height = ground->height_of(p);
+    return height < lowest || height > highest;
+  });
+}
+
+/// Clusters of all points, or of some, as indices of `points`.
+std::vector<Detection::Indices> Detection::clusters(const std::vector<ClassPoint>& points,
+                                                    const Indices* of,
+                                                    const ClusterConfig& config) {
+  places_.clear();
+  const std::size_t count = of ? of->size() : points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    places_.push_back(points[of ? (*of)[i] : i].position.head<2>());
+  }
+  std::vector<Indices> found = clusters_.find(places_, config);
+  if (!of) return found;
+  for (Indices& cluster : found) {
+    for (int& i : cluster) i = (*of)[i];
+  }
+  return found;
+}
+
+void Detection::add_vehicle(const Indices& indices, int splits, objects::Detections& result) {
+  const Eigen::Vector3d middle = mean_of(window_.cuboids, indices);
+  const objects::GroundPlane* ground = ground_.at(middle);
+  if (!ground) return;
+  const SE3 T_level_local = local_frame(*ground, middle);
+  const SE3 T_local_level = T_level_local.inverse();
+  std::vector<BodyPoint> points;
+  points.reserve(indices.size());
+  for (const int i : indices) {
+    const ClassPoint& p = window_.cuboids[i];
+    points.push_back({(T_local_level * p.position.cast<double>()).cast<float>(),
+                      static_cast<float>(window_.seconds[p.scan])});
+  }
+  const VehicleFit fit =
+      fit_vehicle(points, moved(T_local_level, window_.sensors), config_.vehicle);
+  if (fit.status == VehicleStatus::too_large) split_vehicle(indices, splits, result);
+  if (fit.status != VehicleStatus::fitted) return;
+  objects::Measurement m = measurement(window_.cuboids, indices, result);
+  m.model = transformed(window_.T_lidar_level * T_level_local, fit.cuboid);
+  m.covariance = fit.covariance;
+  m.front_log_odds = fit.front_log_odds;
+  m.moving = fit.motion.moving;
+  result.measurements.push_back(std::move(m));
+}
+
+void Detection::split_vehicle(const Indices& indices, int splits, objects::Detections& result) {
+  if (splits >= config_.most_splits) return;
+  ClusterConfig finer = config_.vehicle_clusters;
+  for (int i = 0; i <= splits; ++i) finer.reach_m *= config_.split_ratio;
+  for (const Indices& part : clusters(window_.cuboids, &indices, finer)) {
+    add_vehicle(part, splits + 1, result);
+  }
+}
+
+void Detection::add_trunk(const Indices& indices, objects::Detections& result) {
+  const Eigen::Vector3d middle = mean_of(window_.cylinders, indices);
+  const objects::GroundPlane* ground = ground_.at(middle);
+  if (!ground) return;
+  const SE3 T_level_local = local_frame(*ground, middle);
+  const SE3 T_local_level = T_level_local.inverse();
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(indices.size());
+  for (const int i : indices) {
+    points.push_back(T_local_level * window_.cylinders[i].position.cast<double>());
+  }
+  const TrunkFit fit = fit_trunk(points, T_local_level * window_.sensors.front(), config_.trunk);
+  if (fit.status != TrunkStatus::fitted) return;
+  const SE3 T_lidar_local = window_.T_lidar_level * T_level_local;
+  objects::Measurement m = measurement(window_.cylinders, indices, result);
+  m.model = transformed(T_lidar_local, fit.cylinder);
+  m.covariance = rotated(fit.covariance, T_lidar_local.linear(), fit.cylinder.axis);
+  result.measurements.push_back(std::move(m));
+}
+
+objects::Measurement Detection::measurement(const std::vector<ClassPoint>& points,
+                                            const Indices& indices,
+                                            const objects::Detections& result) const {
+  objects::Measurement m;
+  m.stamp = result.stamp;
+  m.points = static_cast<int>(indices.size());
+  m.class_probability = class_probability(points, indices);
+  m.class_id = static_cast<objects::ClassId>(
+      std::max_element(m.class_probability.begin(), m.class_probability.end()) -
+      m.class_probability.begin());
+  return m;
+}
+
+/// Mean over the points; what a label leaves is spread over the other classes.
+std::vector<double> Detection::class_probability(const std::vector<ClassPoint>& points,
+                                                 const Indices& indices) const {
+  std::vector<double> sum(table_.classes.size(), 0);
+  double rest = 0;
+  for (const int i : indices) {
+    const double p = points[i].probability;
+    const double share = (1 - p) / std::max(table_.size() - 1, 1);
+    sum[points[i].class_id] += p - share;
+    rest += share;
+  }
+  for (double& p : sum) p = (p + rest) / static_cast<double>(indices.size());
+  return sum;
+}
+
+}  // namespace saker::detection

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "detection/clusters.h"
+#include "detection/ground.h"
+#include "detection/trunk.h"
+#include "detection/vehicle.h"
+#include "detection/window.h"
+#include "objects/measurement.h"
+
+/// Stage 3 — reads the labelled scans of the last seconds (from segmentation), makes ground planes,
+/// cuboids and cylinders with covariance (for SLAM): the paper's virtual sensors.
+///
+/// Frames: everything is given in the lidar frame of the window's last scan. Inside, clouds lie in
+/// a levelled frame (odometry's z is up, roughly), and each object in the frame of its local
+/// ground. Method: paper, III-A; ground and cylinders after Chen et al., "SLOAM", RA-L 2020;
+/// clusters by DBSCAN (Ester et al., KDD 1996). Objects without ground near them are refused. Cost:
+/// linear in labelled points, about 50 ms for ten scans of 120,000 on one thread.
+namespace saker::detection {
+
+struct DetectionConfig {
+  double window_s = 1.0;
+  int most_splits = 2;
+  double split_ratio = 0.6;
+  WindowConfig window;
+  GroundConfig ground;
+  ClusterConfig vehicle_clusters = {0.1, 0.5, 6};
+  VehicleConfig vehicle;
+  ClusterConfig trunk_clusters = {0.05, 0.3, 6};
+  TrunkConfig trunk;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("window_s", window_s, {0.05, 10}, "s",
+            "scans that are accumulated (paper: 1 to 3); longer shows more sides, but odometry "
+            "drifts within it");
+    v.field("most_splits", most_splits, {0, 5}, "",
+            "how often a cluster too large for one vehicle is clustered again, more finely");
+    v.field("split_ratio", split_ratio, {0.1, 0.95}, "",
+            "of DBSCAN's reach from one split to the next");
+    v.group("window", window, "accumulation of scans");
+    v.group("ground", ground, "local ground planes");
+    v.group("vehicle_clusters", vehicle_clusters, "clusters of vehicle points");
+    v.group("vehicle", vehicle, "cuboids");
+    v.group("trunk_clusters", trunk_clusters, "clusters of trunk and pole points");
+    v.group("trunk", trunk, "cylinders");
+  }
+};
+
+class Detection {
+ public:
+  /// Throws Error on an invalid value.
+  Detection(const DetectionConfig& config, const objects::ClassTable& table);
+
+  /// \param window in the order of time. An empty one gives no detections.
+  [[nodiscard]] objects::Detections detect(std::span<const LabelledScan> window);
+
+ private:
+  using Indices = std::vector<int>;
+
+  void detect_vehicles(objects::Detections& result);
+  void detect_trunks(objects::Detections& result);
+  void add_vehicle(const Indices& indices, int splits, objects::Detections& result);
+  void split_vehicle(const Indices& indices, int splits, objects::Detections& result);
+  void add_trunk(const Indices& indices, objects::Detections& result);
+  void keep_above_ground(std::vector<ClassPoint>& points, double lowest, double highest) const;
+  [[nodiscard]] std::vector<Indices> clusters(const std::vector<ClassPoint>& points,
+                                              const Indices* of, const ClusterConfig& config);
+  [[nodiscard]] std::vector<double> class_probability(const std::vector<ClassPoint>& points,
+                                                      const Indices& indices) const;
+  [[nodiscard]] objects::Measurement measurement(const std::vector<ClassPoint>& points,
+                                                 const Indices& indices,
+                                                 const objects::Detections& result) const;
+
+  DetectionConfig config_;
+  objects::ClassTable table_;
+  Window window_;
+  Ground ground_;
+  Clusters clusters_;
+  std::vector<Eigen::Vector2f> places_;
+};
+
+}  // namespace saker::detection

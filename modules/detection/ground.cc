@@ -1,0 +1,154 @@
+#include "detection/ground.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace saker::detection {
+namespace {
+
+constexpr std::array kScales = {30.0, 8.0, 3.0, 1.0, 1.0};  // of the last one
+
+/// Cauchy-weighted plane z = a x + b y + c, (a, b) with a Gaussian prior.
+Eigen::Vector3d fit_plane(const std::vector<Eigen::Vector3d>& points, const GroundConfig& config) {
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  std::vector<double> heights;
+  heights.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) heights.push_back(p.z());
+  std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
+  plane.z() = heights[heights.size() / 2];
+  const double ridge = std::pow(config.noise_m / config.slope_sd, 2);
+  for (const double scale : kScales) {
+    Eigen::Matrix3d H = Eigen::Vector3d(ridge, ridge, 1e-9).asDiagonal();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : points) {
+      const Eigen::Vector3d row(p.x(), p.y(), 1);
+      const double residual = (p.z() - row.dot(plane)) / (scale * config.outlier_m);
+      const double weight = 1 / (1 + residual * residual);
+      H += weight * row * row.transpose();
+      g += weight * p.z() * row;
+    }
+    plane = H.ldlt().solve(g);
+  }
+  return plane;
+}
+
+}  // namespace
+
+void Ground::fit(const std::vector<Eigen::Vector3f>& points, double range) {
+  size_ = 2 * static_cast<int>(std::ceil(range / config_.cell_m));
+  half_ = 0.5 * size_ * config_.cell_m;
+  accumulate(points);
+  cells_.assign(static_cast<std::size_t>(size_) * size_, std::nullopt);
+  for (int row = 0; row < size_; ++row) {
+    for (int column = 0; column < size_; ++column) {
+      cells_[static_cast<std::size_t>(row) * size_ + column] = fit_cell(column, row);
+    }
+  }
+  std::vector<std::size_t> refused;
+  for (int row = 0; row < size_; ++row) {
+    for (int column = 0; column < size_; ++column) {
+      if (stands_off(column, row))
+        refused.push_back(static_cast<std::size_t>(row) * size_ + column);
+    }
+  }
+  for (const std::size_t i : refused) cells_[i].reset();
+}
+
+void Ground::accumulate(const std::vector<Eigen::Vector3f>& points) {
+  const int edge = size_ * config_.squares;
+  const float per_m = static_cast<float>(config_.squares / config_.cell_m);
+  const float half = static_cast<float>(half_);
+  const float rim = static_cast<float>(edge);
+  squares_.assign(static_cast<std::size_t>(edge) * edge, Square{});
+  for (const Eigen::Vector3f& p : points) {
+    const float column = (p.x() + half) * per_m;
+    const float row = (p.y() + half) * per_m;
+    if (!(column >= 0 && row >= 0 && column < rim && row < rim)) continue;
+    Square& square = squares_[static_cast<std::size_t>(row) * edge + static_cast<int>(column)];
+    square.sum += p;
+    ++square.count;
+  }
+}
+
+/// Mean points of the squares in the cell and half a cell around it, relative to its centre.
+const std::vector<Eigen::Vector3d>& Ground::support(int column, int row) {
+  support_.clear();
+  const int n = config_.squares;
+  const int edge = size_ * n;
+  const int margin = (n + 1) / 2;
+  const Eigen::Vector2d middle = centre(column, row);
+  for (int r = std::max(0, row * n - margin); r < std::min(edge, row * n + n + margin); ++r) {
+    for (int c = std::max(0, column * n - margin); c < std::min(edge, column * n + n + margin);
+         ++c) {
+      const Square& square = squares_[static_cast<std::size_t>(r) * edge + c];
+      if (square.count == 0) continue;
+      Eigen::Vector3d mean = (square.sum / static_cast<float>(square.count)).cast<double>();
+      mean.head<2>() -= middle;
+      support_.push_back(mean);
+    }
+  }
+  return support_;
+}
+
+std::optional<objects::GroundPlane> Ground::fit_cell(int column, int row) {
+  if (static_cast<int>(support(column, row).size()) < config_.least_squares) return std::nullopt;
+  const Eigen::Vector3d plane = fit_plane(support_, config_);
+  if (!plane.allFinite()) return std::nullopt;
+  if (plane.head<2>().norm() > std::tan(config_.most_slope_deg * M_PI / 180)) return std::nullopt;
+  const Eigen::Vector2d middle = centre(column, row);
+  objects::GroundPlane ground;
+  ground.normal = Eigen::Vector3d(-plane.x(), -plane.y(), 1).normalized();
+  ground.point = Eigen::Vector3d(middle.x(), middle.y(), plane.z());
+  ground.radius = config_.cell_m;
+  return ground;
+}
+
+bool Ground::stands_off(int column, int row) const {
+  const auto& own = cell(column, row);
+  if (!own) return false;
+  std::vector<double> heights;
+  for (int r = std::max(0, row - 1); r <= std::min(size_ - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(size_ - 1, column + 1); ++c) {
+      if ((r == row && c == column) || !cell(c, r)) continue;
+      heights.push_back(cell(c, r)->height_of(own->point));
+    }
+  }
+  if (heights.size() < 2) return false;
+  std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
+  return std::abs(heights[heights.size() / 2]) > config_.most_step_m;
+}
+
+Eigen::Vector2d Ground::centre(int column, int row) const {
+  return {(column + 0.5) * config_.cell_m - half_, (row + 0.5) * config_.cell_m - half_};
+}
+
+const objects::GroundPlane* Ground::at(const Eigen::Vector3d& p) const {
+  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e6) return nullptr;
+  const int column = static_cast<int>(std::floor((p.x() + half_) / config_.cell_m));
+  const int row = static_cast<int>(std::floor((p.y() + half_) / config_.cell_m));
+  const bool inside = column >= 0 && row >= 0 && column < size_ && row < size_;
+  if (inside && cell(column, row)) return &*cell(column, row);
+  const int reach = static_cast<int>(std::ceil(config_.reach_m / config_.cell_m));
+  const objects::GroundPlane* best = nullptr;
+  double best_distance = config_.reach_m + config_.cell_m / 2;
+  for (int r = std::max(0, row - reach); r <= std::min(size_ - 1, row + reach); ++r) {
+    for (int c = std::max(0, column - reach); c <= std::min(size_ - 1, column + reach); ++c) {
+      const double distance = (centre(c, r) - p.head<2>()).norm();
+      if (!cell(c, r) || distance >= best_distance) continue;
+      best_distance = distance;
+      best = &*cell(c, r);
+    }
+  }
+  return best;
+}
+
+std::vector<objects::GroundPlane> Ground::planes() const {
+  std::vector<objects::GroundPlane> planes;
+  for (const auto& plane : cells_) {
+    if (plane) planes.push_back(*plane);
+  }
+  return planes;
+}
+
+}  // namespace saker::detection

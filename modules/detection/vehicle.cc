@@ -1,0 +1,176 @@
+#include "detection/vehicle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/statistics.h"
+#include "detection/edges.h"
+#include "detection/hull.h"
+
+namespace saker::detection {
+namespace {
+
+using Places = std::vector<Eigen::Vector2d>;
+
+/// The first point of each small square: what lies dense counts once.
+Places thinned(const std::vector<BodyPoint>& points, const Eigen::Vector2d& velocity, double edge) {
+  Places places;
+  std::vector<std::pair<std::int64_t, std::size_t>> keys;
+  places.reserve(points.size());
+  for (const BodyPoint& p : points) {
+    const Eigen::Vector2d place =
+        p.position.head<2>().cast<double>() - velocity * static_cast<double>(p.seconds);
+    keys.emplace_back((static_cast<std::int64_t>(std::floor(place.x() / edge)) << 32) +
+                          static_cast<std::int64_t>(std::floor(place.y() / edge)),
+                      places.size());
+    places.push_back(place);
+  }
+  std::sort(keys.begin(), keys.end());
+  Places thin;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i == 0 || keys[i].first != keys[i - 1].first) thin.push_back(places[keys[i].second]);
+  }
+  return thin;
+}
+
+Motion motion_of(const std::vector<BodyPoint>& points, const VehicleConfig& config) {
+  std::vector<TimedPoint> timed;
+  timed.reserve(points.size());
+  for (const BodyPoint& p : points) timed.push_back({p.position.head<2>(), p.seconds});
+  const Places hull = convex_hull(thinned(points, Eigen::Vector2d::Zero(), config.motion.square_m));
+  return estimate_motion(timed, principal_direction(hull), config.motion);
+}
+
+double top_of(const std::vector<BodyPoint>& points, double percentile) {
+  std::vector<double> heights;
+  heights.reserve(points.size());
+  for (const BodyPoint& p : points) heights.push_back(p.position.z());
+  return core::percentile(heights, percentile / 100);
+}
+
+SizePrior prior_of(int axis, const VehicleConfig& config) {
+  return axis == 0 ? SizePrior{config.length_m, config.length_sd_m}
+                   : SizePrior{config.width_m, config.width_sd_m};
+}
+
+/// Both axes' edges, given which of them is the length.
+struct Rectangle {
+  Footprint footprint;
+  std::array<Interval, 2> axis;
+  double cost = 0;  ///< how unlikely these sizes are, in units of −2 log likelihood
+};
+
+Rectangle rectangle(const Footprint& footprint, double top,
+                    const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
+  Rectangle result{footprint, {}, 0};
+  const auto sds = edge_sds(footprint, top, sensors, config.noise);
+  const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
+  for (int k = 0; k < 2; ++k) {
+    const SizePrior prior = prior_of(k, config);
+    result.axis[k] =
+        fuse_edges({footprint.low[k], sds[k][0]}, {footprint.high[k], sds[k][1]}, prior, seen_sd);
+    const double variance = std::pow(prior.sd, 2) + std::pow(sds[k][0], 2) + std::pow(sds[k][1], 2);
+    result.cost += std::pow(footprint.size()[k] - prior.mean, 2) / variance + std::log(variance);
+  }
+  return result;
+}
+
+Footprint turned(const Footprint& f) {
+  Footprint result;
+  result.direction = f.direction + M_PI / 2;
+  result.low = {f.low.y(), -f.high.x()};
+  result.high = {f.high.y(), -f.low.x()};
+  return result;
+}
+
+/// The side that is longer need not be the length where one face alone was seen.
+Rectangle likelier(const Footprint& footprint, double top,
+                   const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
+  const Rectangle straight = rectangle(footprint, top, sensors, config);
+  const Rectangle across = rectangle(turned(footprint), top, sensors, config);
+  return across.cost < straight.cost ? across : straight;
+}
+
+/// Log-odds that the lower axis end … the end at +x is the front: the lower one (paper, III-A).
+double front_log_odds(const std::vector<BodyPoint>& points, const Motion& motion,
+                      const Rectangle& r, const VehicleConfig& config) {
+  const Eigen::Vector2d x(std::cos(r.footprint.direction), std::sin(r.footprint.direction));
+  std::vector<double> front;
+  std::vector<double> rear;
+  for (const BodyPoint& p : points) {
+    const double at = x.dot(p.position.head<2>().cast<double>() -
+                            motion.velocity * static_cast<double>(p.seconds));
+    const double ratio = (at - r.axis[0].low) / r.axis[0].size();
+    if (ratio < 0.25) rear.push_back(p.position.z());
+    if (ratio > 0.75) front.push_back(p.position.z());
+  }
+  constexpr std::size_t kLeast = 8;
+  if (front.size() < kLeast || rear.size() < kLeast) return 0;
+  const double rise = core::percentile(rear, 0.9) - core::percentile(front, 0.9);
+  const double most = config.most_front_log_odds;
+  return std::clamp(rise / config.front_sd_m, -most, most);
+}
+
+objects::Cuboid cuboid_of(const Rectangle& r, double top) {
+  objects::Cuboid cuboid;
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(r.footprint.direction, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  cuboid.pose.linear() = R;
+  cuboid.pose.translation() =
+      R * Eigen::Vector3d(r.axis[0].centre(), r.axis[1].centre(), 0.5 * top);
+  cuboid.size = {r.axis[0].size(), r.axis[1].size(), top};
+  return cuboid;
+}
+
+/// [rotation, translation, size] in the cuboid's own frame.
+Matrix9d covariance_of(const Rectangle& r, const VehicleNoiseConfig& noise) {
+  Matrix9d P = Matrix9d::Zero();
+  const double tilt = noise.tilt_deg * M_PI / 180;
+  // An edge that is off turns the heading by its error over the seen length.
+  const double seen = std::max(r.footprint.size().maxCoeff(), 0.5);
+  const double yaw = std::hypot(noise.yaw_deg * M_PI / 180, 0.7 * noise.edge_m / seen);
+  P.diagonal().head<3>() << tilt * tilt, tilt * tilt, yaw * yaw;
+  for (int k = 0; k < 2; ++k) {
+    P(3 + k, 3 + k) = r.axis[k].covariance(0, 0);
+    P(6 + k, 6 + k) = r.axis[k].covariance(1, 1);
+    P(3 + k, 6 + k) = P(6 + k, 3 + k) = r.axis[k].covariance(0, 1);
+  }
+  const double bottom = noise.ground_m * noise.ground_m;
+  const double top = noise.top_m * noise.top_m;
+  P(5, 5) = 0.25 * (bottom + top);
+  P(8, 8) = bottom + top;
+  P(5, 8) = P(8, 5) = 0.5 * (top - bottom);
+  return P;
+}
+
+VehicleStatus judge(const Footprint& footprint, double top, const VehicleConfig& config) {
+  const double longer = footprint.size().maxCoeff();
+  const double shorter = footprint.size().minCoeff();
+  if (longer > config.most_length_m || shorter > config.most_width_m) {
+    return VehicleStatus::too_large;
+  }
+  const bool small = longer < config.least_length_m || top < config.least_height_m;
+  return small ? VehicleStatus::too_small : VehicleStatus::fitted;
+}
+
+}  // namespace
+
+VehicleFit fit_vehicle(const std::vector<BodyPoint>& points,
+                       const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
+  VehicleFit fit;
+  if (static_cast<int>(points.size()) < config.least_points) return fit;
+  fit.motion = motion_of(points, config);
+  const Places places = thinned(points, fit.motion.velocity, config.thin_m);
+  const Footprint footprint = fit_footprint(places, config.footprint);
+  const double top = top_of(points, config.top_percentile);
+  fit.status = judge(footprint, top, config);
+  if (fit.status != VehicleStatus::fitted) return fit;
+  const Rectangle best = likelier(footprint, top, sensors, config);
+  fit.cuboid = cuboid_of(best, top);
+  fit.covariance = covariance_of(best, config.noise);
+  fit.front_log_odds = front_log_odds(points, fit.motion, best, config);
+  return fit;
+}
+
+}  // namespace saker::detection
