@@ -22,7 +22,7 @@ class OutputFolder {
     return path_ / name;
   }
   /// A folder inside, made when it is not there.
-  [[nodiscard]] std::filesystem::path folder(const std::string& name) const;
+  std::filesystem::path folder(const std::string& name) const;
 
  private:
   std::filesystem::path path_;

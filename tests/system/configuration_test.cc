@@ -1,0 +1,50 @@
+#include "saker/configuration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/config_io.h"
+#include "core/error.h"
+#include "core/files.h"
+
+namespace saker::tools {
+namespace {
+
+TEST(Configuration, TheFileInTheRepositoryIsTheOneOfTheProgram) {
+  const std::filesystem::path written = std::filesystem::path(testing::TempDir()) / "default.yaml";
+  core::write_file(written, configuration_text(autonomy::Config{}));
+  EXPECT_TRUE(core::read_file(written) == core::read_file(SAKER_SOURCE_DIR "/configs/default.yaml"))
+      << "compare configs/default.yaml with " << written;
+}
+
+TEST(Configuration, TheDefaultsAreWithinTheirBounds) {
+  EXPECT_NO_THROW((void)core::checked(autonomy::Config{}, "saker"));
+}
+
+TEST(Configuration, WhatIsWrittenIsReadBackTheSame) {
+  const std::string text = configuration_text(autonomy::Config{});
+  EXPECT_EQ(configuration_text(core::config_from_yaml<autonomy::Config>(text, "default.yaml")),
+            text);
+}
+
+TEST(Configuration, NoKeyIsListedTwice) {
+  auto keys = core::config_keys(autonomy::Config{});
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
+  EXPECT_GT(keys.size(), 50u);
+}
+
+TEST(Configuration, SettingsComeAfterTheFile) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "set.yaml";
+  core::write_file(file, "rates: {slam_hz: 4, segmentation_hz: 8}\n");
+  CommonOptions common;
+  common.config_file = file.string();
+  common.settings = {"rates.slam_hz=1"};
+  const autonomy::Config config = read_configuration(common);
+  EXPECT_EQ(config.rates.slam_hz, 1);
+  EXPECT_EQ(config.rates.segmentation_hz, 8);
+}
+
+}  // namespace
+}  // namespace saker::tools
