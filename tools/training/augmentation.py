@@ -64,12 +64,29 @@ def drop_out(points, labels, rng):
     return points, labels
 
 
-def nearer_first(front, labels_front, back, labels_back, shown):
-    """What of `front` (where `shown`) hides of `back`: a scan with objects of another scan pasted in at their own place."""
-    near = np.linalg.norm(front, axis=-1)
-    far = np.linalg.norm(back, axis=-1)
-    take = shown & (near < np.where(np.isfinite(far), far, np.inf))
-    return np.where(take[..., None], front, back), np.where(take, labels_front, labels_back)
+def own_body(points, labels, rng):
+    """The vehicle that carries the sensor hides some of the lowest rows."""
+    rows, columns = labels.shape
+    points, labels = points.copy(), labels.copy()
+    row, column = np.mgrid[:rows, :columns]
+    for _ in range(rng.integers(1, 7)):
+        height, width, centre = rng.uniform(1, rows / 5), rng.uniform(10, 70), rng.uniform(0, columns)
+        foot = rng.uniform(0.75, 1.0) * rows
+        away = np.abs(column - centre + rng.normal(0, 4, (rows, 1)))
+        gone = (np.minimum(away, columns - away) / width) ** 2 + ((row - foot) / height) ** 2 < 1
+        points[gone], labels[gone] = np.nan, 255
+    return points, labels
+
+
+def zigzag(points, labels, rng):
+    """Lasers that do not look exactly where the azimuth says: some rows are a column aside."""
+    shift = rng.integers(-1, 2, 2)
+    rows = np.arange(len(points))
+    for kind in range(2):
+        of_kind = rows[(rows // 2) % 2 == kind]
+        points[of_kind] = np.roll(points[of_kind], shift[kind], 1)
+        labels[of_kind] = np.roll(labels[of_kind], shift[kind], 1)
+    return points, labels
 
 
 def augment(points, labels, rng):
@@ -77,7 +94,11 @@ def augment(points, labels, rng):
     points, labels = roll(points, labels, rng)
     if rng.random() < 0.5:
         points, labels = mirror(points, labels)
+    if rng.random() < 0.2:
+        points, labels = zigzag(points.copy(), labels.copy(), rng)
     points, labels = noise(points, labels, rng)
     if rng.random() < 0.7:
         points, labels = tilt(points, labels, rng)
+    if rng.random() < 0.4:
+        points, labels = own_body(points, labels, rng)
     return drop_out(points, labels, rng)

@@ -22,7 +22,7 @@ import inputs
 import labels as classes
 import model as network
 
-CLASS_WEIGHTS = torch.tensor([1.0, 2.0, 4.0, 5.0, 0.8])
+CLASS_WEIGHTS = torch.tensor([1.0, 2.0, 2.5, 4.0, 0.8])
 
 
 def loss_of(output, truth):
@@ -57,6 +57,9 @@ class Trainer:
         self.checkpoint = args.out / "checkpoint.pt"
         if self.checkpoint.exists():
             self._resume()
+        elif args.start:
+            self.model.load_state_dict(torch.load(args.start)["average"])
+            self.average.load_state_dict(self.model.state_dict())
 
     def _resume(self):
         state = torch.load(self.checkpoint)
@@ -134,6 +137,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", type=pathlib.Path)
     parser.add_argument("-o", "--out", type=pathlib.Path, required=True)
+    parser.add_argument("--start", type=pathlib.Path, help="checkpoint of another run to start from")
     parser.add_argument("--steps", type=int, default=24000)
     parser.add_argument("--batch", type=int, default=4)
     parser.add_argument("--width", type=int, default=512, help="columns of a crop")
