@@ -36,9 +36,9 @@ LockstepResult Lockstep::run(lidar::ScanSource& source, LockstepObserver& observ
   finish_cycles(0, observer);
   result.T_world_lidar.reserve(result.scans.size());
   for (const ScanRecord& scan : result.scans) {
-    result.T_world_lidar.push_back(slam_.T_world_lidar(scan.stamp, scan.T_odom_lidar));
+    result.T_world_lidar.push_back(slam_.corrected(scan.stamp, scan.T_odom_lidar));
   }
-  result.map = slam_.map();
+  result.map = slam_.map_with_covariance().map;
   result.keyframes = static_cast<int>(slam_.keyframes().size());
   return result;
 }
@@ -48,7 +48,7 @@ void Lockstep::ingest(lidar::Frame frame, LockstepObserver& observer, LockstepRe
   odometry::OdometryEstimate estimate =
       timings_.time("odometry", [&] { return odometry_.register_scan(*scan, frame.imu); });
   result.scans.push_back(
-      {frame.name, scan->stamp, estimate.T_odom_lidar, estimate.status, frame.fault});
+      {frame.name, scan->stamp, estimate.T_odom_lidar, estimate.status, estimate.reason, frame.fault});
   observer.on_scan(result.scans.back(), estimate);
   if (estimate.status == odometry::OdometryStatus::refused) return;
 
@@ -104,7 +104,7 @@ void Lockstep::finish_cycles(std::size_t most_pending, LockstepObserver& observe
     cycle.input.detections = cycle.detections.get();
     observer.on_detections(cycle.input.detections);
     timings_.time("slam", [&] {
-      return slam_.update(cycle.input, core::Budget::iterations(config_.slam.iterations));
+      return slam_.update(cycle.input, core::Budget::iterations(config_.slam.graph.iterations));
     });
     pending_.pop_front();
   }

@@ -32,6 +32,7 @@ struct ScanRecord {
   Time stamp = 0;
   SE3 T_odom_lidar = SE3::Identity();
   odometry::OdometryStatus status = odometry::OdometryStatus::refused;
+  odometry::OdometryReason reason = odometry::OdometryReason::none;  ///< why it is not ok
   std::string fault;  ///< why it could not be read; empty otherwise
 };
 

@@ -1,82 +1,65 @@
 #pragma once
 
 #include <algorithm>
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
+
+#include "core/parallel.h"
 
 namespace saker::autonomy {
 
-/// Runs jobs on threads that each own a Context (stages that are not shared). Jobs start in the
-/// order of submission, so a job may wait for the result of an earlier one. Without threads a job
-/// runs inside `submit`.
+/// Runs jobs on threads, each with a Context of its own for as long as it runs (stages that are not shared; which one it
+/// gets must not matter). Jobs start in the order of submission, so a job may wait for the result of an earlier one.
+/// Without threads a job runs inside `submit`. Jobs that have not started at the end are dropped.
 template <class Context>
 class WorkerPool {
  public:
-  /// \param make  makes a Context; called once a thread (once in all without threads), here.
+  /// \param make  makes a Context; called here, once a thread (once in all without threads).
   WorkerPool(int threads, const std::function<std::unique_ptr<Context>()>& make) {
     for (int i = 0; i < std::max(threads, 1); ++i) contexts_.push_back(make());
-    for (int i = 0; i < threads; ++i) {
-      threads_.emplace_back([this, context = contexts_[i].get()] { work(*context); });
-    }
-  }
-  WorkerPool(const WorkerPool&) = delete;
-  WorkerPool& operator=(const WorkerPool&) = delete;
-
-  /// Jobs that have not started are dropped; their futures say broken_promise.
-  ~WorkerPool() {
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-      jobs_.clear();
-    }
-    changed_.notify_all();
-    for (auto& thread : threads_) thread.join();
+    if (threads > 0) threads_ = std::make_unique<core::TaskThreads>(threads);
   }
 
   template <class Job>
   [[nodiscard]] auto submit(Job job) -> std::shared_future<std::invoke_result_t<Job, Context&>> {
     using Result = std::invoke_result_t<Job, Context&>;
-    auto task = std::make_shared<std::packaged_task<Result(Context&)>>(std::move(job));
+    auto task = std::make_shared<std::packaged_task<Result()>>([this, job = std::move(job)] {
+      const Lease lease(*this);
+      return job(*lease.context);
+    });
     auto future = task->get_future().share();
-    if (threads_.empty()) {
-      (*task)(*contexts_.front());
-      return future;
+    if (threads_ != nullptr) {
+      threads_->push([task] { (*task)(); });
+    } else {
+      (*task)();
     }
-    {
-      const std::lock_guard lock(mutex_);
-      jobs_.push_back([task](Context& context) { (*task)(context); });
-    }
-    changed_.notify_one();
     return future;
   }
 
  private:
-  void work(Context& context) {
-    while (true) {
-      std::function<void(Context&)> job;
-      {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
-        if (stopping_) return;
-        job = std::move(jobs_.front());
-        jobs_.pop_front();
-      }
-      job(context);
+  struct Lease {
+    explicit Lease(WorkerPool& owner) : pool(owner) {
+      const std::lock_guard lock(pool.mutex_);
+      context = std::move(pool.contexts_.back());  // there are as many as threads
+      pool.contexts_.pop_back();
     }
-  }
+    ~Lease() {
+      const std::lock_guard lock(pool.mutex_);
+      pool.contexts_.push_back(std::move(context));
+    }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
 
-  std::vector<std::unique_ptr<Context>> contexts_;
+    WorkerPool& pool;
+    std::unique_ptr<Context> context;
+  };
+
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void(Context&)>> jobs_;
-  bool stopping_ = false;
-  std::vector<std::thread> threads_;
+  std::vector<std::unique_ptr<Context>> contexts_;
+  std::unique_ptr<core::TaskThreads> threads_;  // last: its tasks use what stands above
 };
 
 }  // namespace saker::autonomy

@@ -1,0 +1,72 @@
+#include "saker/map_picture.h"
+
+#include <fmt/format.h>
+
+#include "core/picture.h"
+
+namespace saker::tools {
+namespace {
+
+namespace colours = core::colours;
+
+constexpr double kMargin_m = 15;  // shown around trajectory and objects: beyond it points say little
+constexpr core::Colour kTruth = colours::kGrey;
+
+core::Colour colour_of(const objects::ObjectClass& object_class) {
+  if (object_class.shape == objects::Shape::cuboid) return colours::kBlue;
+  return object_class.name == "pole" ? colours::kOrange : colours::kGreen;
+}
+
+std::vector<Eigen::Vector2d> flat(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<Eigen::Vector2d> result;
+  result.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) result.emplace_back(p.head<2>());
+  return result;
+}
+
+core::Extent extent_of(const MapView& view) {
+  core::Extent extent;
+  for (const Eigen::Vector3d& p : view.trajectory) extent.include(p.head<2>());
+  for (const objects::MapObject& object : view.map.objects) {
+    extent.include(objects::place(object.model).head<2>());
+  }
+  return extent.grown(kMargin_m);
+}
+
+void draw(core::Picture& picture, const objects::Model& model, core::Colour colour, int width_px) {
+  if (const auto* cuboid = std::get_if<objects::Cuboid>(&model)) {
+    picture.rectangle(cuboid->pose.translation().head<2>(), core::yaw(cuboid->pose.linear()),
+                      cuboid->size.x(), cuboid->size.y(), colour, width_px);
+  } else {
+    const auto& cylinder = std::get<objects::Cylinder>(model);
+    picture.circle(cylinder.root.head<2>(), cylinder.radius, colour, width_px);
+  }
+}
+
+}  // namespace
+
+void write_map_picture(const std::filesystem::path& file, const MapView& view,
+                       const objects::ClassTable& table) {
+  core::Picture picture(extent_of(view));
+  picture.points(flat(view.cloud), colours::kInk);
+  if (view.truth != nullptr) {
+    for (const objects::MapObject& object : view.truth->objects) {
+      draw(picture, object.model, kTruth, 4);
+    }
+  }
+  picture.polyline(flat(view.trajectory), colours::kPurple);
+  for (const objects::MapObject& object : view.map.objects) {
+    draw(picture, object.model, colour_of(table[object.class_id]), 2);
+  }
+  picture.title(fmt::format("{} objects along {} poses", view.map.objects.size(),
+                            view.trajectory.size()));
+  std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
+                                           {core::Mark::ring, colours::kGreen, "trunk"},
+                                           {core::Mark::ring, colours::kOrange, "pole"},
+                                           {core::Mark::line, colours::kPurple, "trajectory"}};
+  if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
+  picture.legend(legend);
+  picture.save(file);
+}
+
+}  // namespace saker::tools

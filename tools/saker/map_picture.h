@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "core/se3.h"
+#include "objects/object_map.h"
+
+namespace saker::tools {
+
+/// A map from above. Truth is optional; everything in the frame of the map.
+struct MapView {
+  const objects::ObjectMap& map;
+  const objects::ObjectMap* truth = nullptr;
+  std::vector<Eigen::Vector3d> trajectory;
+  std::vector<Eigen::Vector3d> cloud;  ///< drawn thinly
+};
+
+/// Writes a PNG: points, trajectory, objects with their class, the outlines of the true ones. Throws Error.
+void write_map_picture(const std::filesystem::path& file, const MapView& view,
+                       const objects::ClassTable& table);
+
+}  // namespace saker::tools
