@@ -50,7 +50,7 @@ void VoxelMap::fit(Voxel& voxel) const {
   const Eigen::Vector3d& variance = solver.eigenvalues();
   const auto square = [](double x) { return x * x; };
   if (variance[0] > square(config_.max_thickness_m) ||
-      variance[1] < square(config_.min_breadth_m) || variance[1] < 9 * variance[0])
+      variance[1] < square(config_.min_breadth_m) || variance[1] < 16 * variance[0])
     return;
   voxel.shape = Shape::plane;
   voxel.mean = mean.cast<float>();

@@ -18,7 +18,7 @@ struct VoxelMapConfig {
   int max_voxels = 200000;
   int max_points = 400;
   int min_points = 6;
-  double max_thickness_m = 0.12;
+  double max_thickness_m = 0.06;
   double min_breadth_m = 0.06;
 
   template <class Visitor>
