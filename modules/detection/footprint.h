@@ -26,7 +26,7 @@ struct FootprintConfig {
   AxisMethod axis = AxisMethod::closeness;
   double low_percentile = 5;
   double high_percentile = 95;
-  double side_m = 0.1;
+  double side_m = 0.2;
   double step_deg = 1;
 
   template <class Visitor>

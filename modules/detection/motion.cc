@@ -7,18 +7,34 @@
 namespace saker::detection {
 namespace {
 
-/// Squares covered by the points, each moved to time 0.
-std::size_t squares_covered(std::span<const TimedPoint> points, const Eigen::Vector2f& velocity,
-                            float square, std::vector<std::int64_t>& keys) {
-  keys.clear();
-  for (const TimedPoint& p : points) {
-    const Eigen::Vector2f at = (p.position - velocity * p.seconds) / square;
-    keys.push_back((static_cast<std::int64_t>(std::floor(at.x())) << 32) +
-                   static_cast<std::int64_t>(std::floor(at.y())));
+/// Counts squares, each remembered by the number of the count that covered it last. The field wraps
+/// around after kEdge squares: farther than a cluster reaches.
+class SquareCounter {
+ public:
+  explicit SquareCounter(double square) : per_m_(1 / static_cast<float>(square)) {}
+
+  /// Squares covered by the points, each moved to time 0.
+  int covered(std::span<const TimedPoint> points, const Eigen::Vector2f& velocity) {
+    ++count_;
+    int fresh = 0;
+    for (const TimedPoint& p : points) {
+      const Eigen::Vector2f at = (p.position - velocity * p.seconds) * per_m_;
+      const int column = static_cast<int>(std::floor(at.x())) & (kEdge - 1);
+      const int row = static_cast<int>(std::floor(at.y())) & (kEdge - 1);
+      std::int32_t& last = last_[static_cast<std::size_t>(row * kEdge + column)];
+      fresh += last != count_;
+      last = count_;
+    }
+    return fresh;
   }
-  std::sort(keys.begin(), keys.end());
-  return static_cast<std::size_t>(std::unique(keys.begin(), keys.end()) - keys.begin());
-}
+
+ private:
+  static constexpr int kEdge = 256;
+
+  float per_m_;
+  std::int32_t count_ = 0;
+  std::vector<std::int32_t> last_ = std::vector<std::int32_t>(kEdge * kEdge, 0);
+};
 
 std::vector<TimedPoint> evenly(std::span<const TimedPoint> points, int most) {
   const std::size_t stride = points.size() / static_cast<std::size_t>(most) + 1;
@@ -37,17 +53,16 @@ Motion estimate_motion(std::span<const TimedPoint> points, double direction,
   const auto [first, last] = std::minmax_element(points.begin(), points.end(), by_time);
   if (points.empty() || last->seconds - first->seconds < config.least_seconds) return {};
   const std::vector<TimedPoint> some = evenly(points, config.most_points);
-  const float square = static_cast<float>(config.square_m);
-  std::vector<std::int64_t> keys;
-  const std::size_t at_rest = squares_covered(some, Eigen::Vector2f::Zero(), square, keys);
-  std::size_t fewest = at_rest;
+  SquareCounter counter(config.square_m);
+  const int at_rest = counter.covered(some, Eigen::Vector2f::Zero());
+  int fewest = at_rest;
   Motion best;
   const int steps = static_cast<int>(config.fastest / config.step);
   for (const double turn : {0.0, M_PI / 2}) {
     const Eigen::Vector2d along(std::cos(direction + turn), std::sin(direction + turn));
     for (int i = -steps; i <= steps; ++i) {
       const Eigen::Vector2d velocity = i * config.step * along;
-      const std::size_t covered = squares_covered(some, velocity.cast<float>(), square, keys);
+      const int covered = counter.covered(some, velocity.cast<float>());
       if (covered >= fewest) continue;
       fewest = covered;
       best.velocity = velocity;

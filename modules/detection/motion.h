@@ -21,7 +21,7 @@ struct MotionConfig {
   double slowest = 1;
   double least_gain = 0.25;
   double least_seconds = 0.25;
-  int most_points = 1500;
+  int most_points = 1000;
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -61,6 +61,13 @@ struct Rectangle {
   double cost = 0;  ///< how unlikely these sizes are, in units of −2 log likelihood
 };
 
+/// What is shorter than nearly all of its class was cut, by something in front or by a gap in the
+/// labels: either end may be farther out by as much.
+double shortfall(double size, const SizePrior& prior) {
+  constexpr double kNearlyAll = 2;  // standard deviations
+  return std::max(0.0, prior.mean - kNearlyAll * prior.sd - size);
+}
+
 Rectangle rectangle(const Footprint& footprint, double top,
                     const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
@@ -68,8 +75,10 @@ Rectangle rectangle(const Footprint& footprint, double top,
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {
     const SizePrior prior = prior_of(k, config);
-    result.axis[k] =
-        fuse_edges({footprint.low[k], sds[k][0]}, {footprint.high[k], sds[k][1]}, prior, seen_sd);
+    const double missing = shortfall(footprint.size()[k], prior);
+    const Edge low = {footprint.low[k], sds[k][0] + missing};
+    const Edge high = {footprint.high[k], sds[k][1] + missing};
+    result.axis[k] = fuse_edges(low, high, prior, seen_sd);
     const double variance = std::pow(prior.sd, 2) + std::pow(sds[k][0], 2) + std::pow(sds[k][1], 2);
     result.cost += std::pow(footprint.size()[k] - prior.mean, 2) / variance + std::log(variance);
   }
