@@ -105,7 +105,7 @@ Mesh hedge(const Palette& palette, int leaves, double leaf_size, core::Rng& rng)
   pen.box({-0.5, -0.36, 0}, {0.5, 0.36, 0.92}, palette.hedge);
   for (int i = 0; i < leaves; ++i) {
     const double side = rng.chance(0.5) ? -1 : 1;
-    Eigen::Vector3d p(rng.uniform(-0.5, 0.5), side * rng.normal(0.44, 0.05), rng.uniform(0, 1));
+    Eigen::Vector3d p{rng.uniform(-0.5, 0.5), side * rng.normal(0.44, 0.05), rng.uniform(0, 1)};
     if (rng.chance(0.3)) p = {p.x(), rng.uniform(-0.46, 0.46), rng.normal(0.96, 0.04)};
     draw_leaf(pen, p, leaf_size * rng.uniform(0.5, 1.4), palette.leaves, rng);
   }

@@ -57,7 +57,7 @@ void draw_branches(const TreeShape& s, const Eigen::Vector3d& fork, MaterialId m
     draw.tube({start, middle, start + out}, {radius, 0.6 * radius, 0.012}, 5, material, false);
     if (!s.bare) continue;
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d twig(rng.normal(0, 0.5), rng.normal(0, 0.5), rng.uniform(0, 0.8));
+      const Eigen::Vector3d twig{rng.normal(0, 0.5), rng.normal(0, 0.5), rng.uniform(0, 0.8)};
       draw.tube({middle, middle + twig}, {0.02, 0.008}, 4, material, false);
     }
   }
@@ -71,7 +71,8 @@ TreeShape random_tree(core::Rng& rng) {
   s.conifer = rng.chance(0.15);
   s.bare = !s.conifer && rng.chance(0.08);
   s.trunk_radius = std::clamp((0.05 + 0.3 * age * age) * rng.uniform(0.8, 1.3), 0.045, 0.42);
-  s.crown_start = rng.uniform(1.5, 2.2) + 2.4 * age * rng.uniform();
+  s.crown_start = rng.uniform(1.5, 2.2);
+  s.crown_start += 2.4 * age * rng.uniform();
   s.crown_radius = (0.8 + 3.0 * age) * rng.uniform(0.75, 1.2);
   s.crown_height = (1.8 + 5.5 * age) * rng.uniform(0.8, 1.25);
   if (s.conifer) {
@@ -104,15 +105,17 @@ void add_tree(World& world, const Palette& palette, const Flora& flora, const Tr
   if (!shape.conifer) draw_branches(shape, fork, palette.twigs, pen, rng);
   if (shape.bare) return;
   const SE3 T_world_crown = T_world_ground * placed(fork.x(), fork.y(), fork.z() - 0.1);
+  const double depth = shape.crown_radius * rng.uniform(0.8, 1.2);
+  const double turn = any_turn(rng);
   place(world, any_of(shape.conifer ? flora.conifers : flora.crowns, rng), T_world_crown,
-        {shape.crown_radius, shape.crown_radius * rng.uniform(0.8, 1.2), shape.crown_height},
-        any_turn(rng), id);
+        {shape.crown_radius, depth, shape.crown_height}, turn, id);
 }
 
 void add_bush(World& world, const Flora& flora, const SE3& T_world_ground, double radius,
               double height, core::Rng& rng) {
-  place(world, any_of(flora.bushes, rng), T_world_ground,
-        {radius, radius * rng.uniform(0.7, 1.3), height}, any_turn(rng), 0);
+  const double depth = radius * rng.uniform(0.7, 1.3);
+  const double turn = any_turn(rng);
+  place(world, any_of(flora.bushes, rng), T_world_ground, {radius, depth, height}, turn, 0);
 }
 
 void add_hedge_block(World& world, const Flora& flora, const SE3& T_world_ground, double length,

@@ -89,7 +89,8 @@ void add_sign(World& world, const Palette& palette, const SE3& T_world_ground, c
 
 void add_bollard(World& world, const Palette& palette, const SE3& T_world_ground, core::Rng& rng) {
   Pen pen(world.mesh, T_world_ground);
-  pen.post(rng.uniform(0.04, 0.1), rng.uniform(0.6, 1.05), palette.object, 10);
+  const double radius = rng.uniform(0.04, 0.1);
+  pen.post(radius, rng.uniform(0.6, 1.05), palette.object, 10);
 }
 
 }  // namespace saker::simulation

@@ -24,7 +24,8 @@ void put(Site& site, const Lot& lot, Adder add, double s, double share, double r
 void spread(Site& site, const Lot& lot, Adder add, double per_100_m, double from, double to,
             double radius) {
   const double mean = per_100_m * site.population.clutter * (lot.to - lot.from) / 100;
-  const int count = static_cast<int>(mean * site.rng.uniform(0.5, 1.5) + site.rng.uniform());
+  const double drawn = mean * site.rng.uniform(0.5, 1.5);
+  const int count = static_cast<int>(drawn + site.rng.uniform());
   for (int i = 0; i < count; ++i) {
     const double s = site.rng.uniform(lot.from, lot.to);
     put(site, lot, add, s, site.rng.uniform(from, to), radius);

@@ -16,8 +16,9 @@ bool plant_tree(Site& site, double s, double d, const TreeShape& shape) {
   add_tree(site.world, site.palette, site.flora, shape, site.terrain.upright(s, d, any_turn(site)),
            site.rng);
   if (site.rng.chance(0.12 * site.population.greenery)) {  // shoots around its foot
-    add_bush(site.world, site.flora, site.terrain.upright(s, d), site.rng.uniform(0.3, 0.9),
-             site.rng.uniform(0.3, 1.3), site.rng);
+    const double radius = site.rng.uniform(0.3, 0.9);
+    add_bush(site.world, site.flora, site.terrain.upright(s, d), radius, site.rng.uniform(0.3, 1.3),
+             site.rng);
   }
   return true;
 }
@@ -34,7 +35,8 @@ template <class Plant>
 void scatter(Site& site, const Lot& lot, double per_100_m2, Plant plant) {
   const double depth = std::min(lot.strip->width, 30.0);
   const double mean = per_100_m2 * (lot.to - lot.from) * depth / 100;
-  const int count = static_cast<int>(mean * site.rng.uniform(0.6, 1.4) + site.rng.uniform());
+  const double drawn = mean * site.rng.uniform(0.6, 1.4);
+  const int count = static_cast<int>(drawn + site.rng.uniform());
   for (int i = 0; i < count; ++i) {
     const double s = site.rng.uniform(lot.from, lot.to);
     plant(s, lot.side * (lot.d + site.rng.uniform(0.05, 0.95) * depth));

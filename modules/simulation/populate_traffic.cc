@@ -58,8 +58,9 @@ void build_lane(Site& site, const Lot& lot) {
   for (double s = lot.from; s < lot.to; s += 12) {
     if (!rng.chance(site.population.traffic)) continue;
     const VehicleShape shape = next_shape(site);
-    park(site, s + rng.uniform(0, 6), lot.at(0.5) + rng.normal(0, 0.15),
-         driving_yaw(lot) + rng.normal(0, 0.03), shape, true);
+    const double middle = s + rng.uniform(0, 6);
+    const double d = lot.at(0.5) + rng.normal(0, 0.15);
+    park(site, middle, d, driving_yaw(lot) + rng.normal(0, 0.03), shape, true);
   }
 }
 

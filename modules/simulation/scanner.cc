@@ -71,12 +71,11 @@ void Scanner::aim(int column, const SE3& T_world_lidar, core::Rng& rng,
   const double spread = 1e-3 * config_.divergence_mrad;
   for (int row = 0; row < beams_.rows; ++row) {
     const std::size_t i = beams_.index(row, column);
-    const Eigen::Vector3f jitter(static_cast<float>(rng.normal(0, spread)),
-                                 static_cast<float>(rng.normal(0, spread)),
-                                 static_cast<float>(rng.normal(0, spread)));
+    const Eigen::Vector3d jitter{rng.normal(0, spread), rng.normal(0, spread),
+                                 rng.normal(0, spread)};
     Shot shot;
     shot.origin = T * beams_.origins[i];
-    shot.direction = T.linear() * (beams_.directions[i] + jitter).normalized();
+    shot.direction = T.linear() * (beams_.directions[i] + jitter.cast<float>()).normalized();
     shots.push_back(shot);
   }
 }

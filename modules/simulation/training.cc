@@ -58,6 +58,26 @@ Sensor os1() {
   return {ouster_beams(lidar::SensorInfo::make_os1(64, 1024, lidar::PacketProfile::kLegacy)), {}};
 }
 
+/// Blanks what the car under the sensor hides: a few patches of the lowest beams.
+void hide_own_car(CastScan& scan, core::Rng& rng) {
+  const int patches = rng.index(8);
+  for (int k = 0; k < patches; ++k) {
+    const double column = rng.uniform(0, scan.columns);
+    const double row = scan.rows * rng.uniform(0.78, 1.02);
+    const double half_width = scan.columns * rng.uniform(0.008, 0.05);
+    const double half_height = scan.rows * rng.uniform(0.06, 0.16);
+    for (int i = 0; i < scan.rows; ++i) {
+      const double up = (i - row) / half_height;
+      if (std::abs(up) >= 1) continue;
+      const double ragged = half_width * std::sqrt(1 - up * up) * rng.uniform(0.8, 1.2);
+      for (int c = static_cast<int>(column - ragged); c < column + ragged; ++c) {
+        const int wrapped = (c + scan.columns) % scan.columns;
+        scan.range_m[static_cast<std::size_t>(i) * scan.columns + wrapped] = 0;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void write_training_scans(const TrainingConfig& config, std::uint64_t seed,
@@ -76,8 +96,9 @@ void write_training_scans(const TrainingConfig& config, std::uint64_t seed,
       Sensor sensor = on_car ? hdl64(rng) : os1();
       const Scanner scanner(caster, built.world, std::move(sensor.beams), sensor.receiver,
                             static_cast<std::uint64_t>(rng.index(1 << 30)));
-      writer.write(scanner.cast([&](int) { return T_world_lidar; }, k), T_world_lidar,
-                   from_seconds(0.1 * done));
+      CastScan scan = scanner.cast([&](int) { return T_world_lidar; }, k);
+      if (on_car) hide_own_car(scan, rng);
+      writer.write(scan, T_world_lidar, from_seconds(0.1 * done));
       ++done;
       if (progress) progress(done, c.worlds * c.scans_per_world);
     }

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
+#include <sstream>
+
 #include "core/files.h"
 #include "lidar/recording.h"
 #include "objects/map_io.h"
@@ -54,6 +58,36 @@ TEST(Flight, TruthHoldsTheObjectsAboutTheFirstScanWithTheirReturns) {
   EXPECT_GT(hit, 5);
   const std::string rows = core::read_file(folder / "trajectory_truth.txt");
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 5);
+}
+
+/// The vehicle hovers: scans are not distorted. Mirrors stand out by 0.15 m.
+TEST(Flight, ReturnsOfAVehicleLieInItsTrueCuboid) {
+  const auto folder = flown("flight_e", 4);
+  const objects::ObjectMap map = objects::read_map(folder / "truth.json", {});
+  std::istringstream row(core::read_file(folder / "trajectory_truth.txt"));
+  double t = 0;
+  Eigen::Vector3d p;
+  Eigen::Quaterniond q;
+  row >> t >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
+  const SE3 T_world_lidar = Eigen::Translation3d(p) * q;
+  const std::string points = core::read_file(folder / "velodyne/000000.bin");
+  const std::string labels = core::read_file(folder / "labels/000000.label");
+  int inside = 0, all = 0;
+  for (std::size_t i = 0; i < labels.size() / 4; ++i) {
+    std::uint32_t label = 0;
+    std::array<float, 4> xyzr;
+    std::memcpy(&label, &labels[4 * i], 4);
+    std::memcpy(xyzr.data(), &points[16 * i], 16);
+    if ((label & 0xFFFF) != kCar || (label >> 16) == 0) continue;
+    const auto& cuboid = std::get<objects::Cuboid>(map.objects.at((label >> 16) - 1).model);
+    const Eigen::Vector3d at =
+        cuboid.pose.inverse() * T_world_lidar * Eigen::Vector3d(xyzr[0], xyzr[1], xyzr[2]);
+    const Eigen::Vector3d margin(0.12, 0.24, 0.12);
+    inside += ((at.cwiseAbs() - margin).array() < cuboid.size.array() / 2).all();
+    ++all;
+  }
+  ASSERT_GT(all, 300);
+  EXPECT_GT(inside, 0.97 * all);
 }
 
 TEST(Flight, TwoRunsAreByteIdentical) {
