@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "slam/factors.h"
 
@@ -125,25 +126,42 @@ ceres::Solver::Options solver_options(const GraphConfig& config, const core::Bud
   return options;
 }
 
-/// The landmark's normal equations with the poses held.
+/// The landmark's normal equations with the poses held, in the landmark's tangent.
 struct NormalEquations {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
 };
 
-void add_observation(const Model& model, const Observation& observation, const SE3& T_world_lidar,
-                     double robust_scale, NormalEquations& sum) {
-  // Poses held: the factor's Jacobian in the landmark's tangent is the whitened inverse right
-  // Jacobian, near 1 here.
-  const Gaussian& measured = observation.measured;
-  const Gaussian in_world = transformed(T_world_lidar, Matrix6d::Zero(), measured);
-  const Eigen::VectorXd error = difference(in_world.model, model);
+void add_observation(const Model& model, const Gaussian& measured, double robust_scale,
+                     NormalEquations& sum) {
+  const Eigen::VectorXd error = difference(measured.model, model);
   const Eigen::MatrixXd information =
-      in_world.covariance.llt().solve(Eigen::MatrixXd::Identity(error.size(), error.size()));
+      measured.covariance.llt().solve(Eigen::MatrixXd::Identity(error.size(), error.size()));
   const double squared = error.dot(information * error);
   const double weight = 1 / (1 + squared / (robust_scale * robust_scale));
   sum.information += weight * information;
   sum.gradient += weight * information * error;
+}
+
+double robust_cost(const Model& model, std::span<const Gaussian> all, double robust_scale) {
+  double cost = 0;
+  for (const Gaussian& measured : all) {
+    const Eigen::VectorXd error = difference(measured.model, model);
+    const double squared = error.dot(measured.covariance.llt().solve(error));
+    cost += std::log1p(squared / (robust_scale * robust_scale));
+  }
+  return cost;
+}
+
+/// All that was measured of a landmark, in the world frame by the estimated poses.
+std::vector<Gaussian> all_in_world(const Landmark& landmark, const Trajectory& trajectory) {
+  std::vector<Gaussian> all;
+  for (const Observation& observation : landmark.observations) {
+    const Keyframe* keyframe = trajectory.find(observation.keyframe);
+    if (keyframe == nullptr) continue;
+    all.push_back(transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured));
+  }
+  return all;
 }
 
 constexpr int kRefineSteps = 5;
@@ -170,18 +188,28 @@ SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* co
   return report;
 }
 
+void restart_if_better(Landmark& landmark, const Trajectory& trajectory,
+                       const GraphConfig& config) {
+  const std::vector<Gaussian> all = all_in_world(landmark, trajectory);
+  if (all.size() < 2) return;
+  Model newest = all.back().model;
+  if (auto* cylinder = std::get_if<objects::Cylinder>(&newest)) {
+    cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
+  }
+  const double now = robust_cost(landmark.model, all, config.robust_scale);
+  if (robust_cost(newest, all, config.robust_scale) < now) landmark.model = newest;
+}
+
 Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory,
                        const GraphConfig& config) {
+  restart_if_better(landmark, trajectory, config);
   const Eigen::Index size = is_cuboid(landmark.model) ? kCuboidTangent : kCylinderTangent;
+  const std::vector<Gaussian> all = all_in_world(landmark, trajectory);
   NormalEquations sum;
   for (int step = 0; step < kRefineSteps; ++step) {
     sum = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-    for (const Observation& observation : landmark.observations) {
-      const Keyframe* keyframe = trajectory.find(observation.keyframe);
-      if (keyframe != nullptr) {
-        add_observation(landmark.model, observation, keyframe->T_world_lidar, config.robust_scale,
-                        sum);
-      }
+    for (const Gaussian& measured : all) {
+      add_observation(landmark.model, measured, config.robust_scale, sum);
     }
     const auto solver = sum.information.llt();
     if (solver.info() != Eigen::Success) return {};

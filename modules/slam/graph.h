@@ -40,7 +40,12 @@ SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* co
 
 /// The landmark's estimate from its own observations with the poses held: what candidates get, and
 /// the start after a merge. \return its covariance given the poses, in the landmark's own frame.
+/// The newest measurement is tried as a start too: a robust estimate that began at a part of a
+/// vehicle would never leave it.
 Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory, const GraphConfig& config);
+
+/// Moves the estimate to its newest measurement where the robust cost of all is less there.
+void restart_if_better(Landmark& landmark, const Trajectory& trajectory, const GraphConfig& config);
 
 struct CovarianceReport {
   std::vector<Eigen::MatrixXd>

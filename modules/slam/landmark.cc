@@ -103,6 +103,15 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   count(landmark, candidate);
 }
 
+void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
+            const LandmarkConfig& config) {
+  const double step = (objects::place(candidate.in_world) - objects::place(landmark.model)).norm();
+  const int still = step <= config.still_m ? landmark.still + 1 : 0;
+  landmark = new_landmark(landmark.id, candidate, keyframe, config);
+  landmark.still = still;
+  landmark.moving = still < config.still_windows;
+}
+
 void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config) {
   const int turn = turn_between(other.model, landmark.model, config);
   for (const Observation& observation : other.observations) {
@@ -114,6 +123,7 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   landmark.seen += other.seen;
   landmark.expected = std::max(landmark.expected + other.seen, other.expected);
   landmark.seen_moving += other.seen_moving;
+  landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
   landmark.last_stamp = std::max(landmark.last_stamp, other.last_stamp);
   landmark.nearest = std::min(landmark.nearest, other.nearest);
@@ -157,15 +167,15 @@ double shape_probability(const Landmark& landmark, const objects::ClassTable& ta
 
 bool believed(const Landmark& landmark, const objects::ClassTable& table,
               const LandmarkConfig& config) {
-  if (landmark.seen < config.confirm_observations) return false;
+  if (landmark.moving || landmark.seen < config.confirm_observations) return false;
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
   if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
   return shape_probability(landmark, table) >= 0.5;
 }
 
-bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config) {
-  return distance <= config.view_margin * landmark.farthest && distance >= landmark.nearest;
+bool in_view(const Landmark& landmark, double distance) {
+  return distance <= landmark.farthest && distance >= landmark.nearest;
 }
 
 bool moves(const Landmark& landmark, const Trajectory& trajectory, const LandmarkConfig& config) {

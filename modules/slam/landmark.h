@@ -15,7 +15,9 @@ struct LandmarkConfig {
   int confirm_observations = 3;
   double confirm_span_s = 0.9;
   double least_seen_ratio = 0.25;
-  double view_margin = 0.8;
+  double track_s = 3;
+  int still_windows = 6;
+  double still_m = 0.4;
   double square_elongation = 2;
   double class_clamp = 0.05;
   double moving_distance_m = 1.5;
@@ -32,9 +34,12 @@ struct LandmarkConfig {
     v.field(
         "least_seen_ratio", least_seen_ratio, {0, 1}, "",
         "of the windows in which the object should have been measured; below, it is not believed");
-    v.field("view_margin", view_margin, {0.1, 1}, "",
-            "of the largest distance at which the object was measured: nearer, it should be "
-            "measured again");
+    v.field("track_s", track_s, {0, 60}, "s",
+            "for which a moving object that is out of sight is remembered");
+    v.field("still_windows", still_windows, {1, 1000}, "",
+            "in which what moved must stand before it counts as an object again");
+    v.field("still_m", still_m, {0, 5}, "m",
+            "between windows: less is standing, the noise of a measured centre");
     v.field("square_elongation", square_elongation, {1, 10}, "",
             "of length to width, below which a heading is good to a quarter turn only: a whole "
             "vehicle has 2.2 to 2.8, less is a part of one");
@@ -77,6 +82,9 @@ struct Landmark {
   int seen = 0;                 ///< windows in which it was measured
   int expected = 0;             ///< windows in which it should have been, `seen` included
   int seen_moving = 0;          ///< windows in which what was measured there moved
+  bool moving =
+      false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
+  int still = 0;  ///< windows for which what moved has stood
   Time first_stamp = 0, last_stamp = 0;
   double nearest = std::numeric_limits<double>::infinity(),
          farthest = 0;  ///< distances at which it was measured, m
@@ -89,6 +97,11 @@ struct Landmark {
 /// remembers it.
 void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
              const LandmarkConfig& config);
+
+/// The next place of what moves: older measurements are void. One that stands for long enough is an
+/// object again.
+void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
+            const LandmarkConfig& config);
 
 /// Takes over all that `other` knows: two candidates were one object.
 void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config);
@@ -111,7 +124,7 @@ void forget(Landmark& landmark, int serial);
 
 /// Whether the robot at `distance` m should measure it: between the distances at which it was
 /// measured.
-[[nodiscard]] bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config);
+[[nodiscard]] bool in_view(const Landmark& landmark, double distance);
 
 /// Whether the footprints that were measured cover together more than one object: it moves. What is
 /// seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.

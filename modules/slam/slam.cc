@@ -88,12 +88,22 @@ void Slam::integrate(const std::vector<Candidate>& candidates, SlamUpdate& repor
       if (landmark_of[c] >= 0) ++landmarks_[known].seen_moving;
     } else if (landmark_of[c] >= 0) {
       ++report.matched;
-      observe(landmarks_[known], candidate, trajectory_.newest().serial, config_.landmarks);
+      take(landmarks_[known], candidate);
     } else {
       ++report.created;
       landmarks_.push_back(
           new_landmark(next_id_++, candidate, trajectory_.newest().serial, config_.landmarks));
     }
+  }
+}
+
+void Slam::take(Landmark& landmark, const Candidate& candidate) {
+  const int keyframe = trajectory_.newest().serial;
+  if (landmark.moving) {
+    follow(landmark, candidate, keyframe, config_.landmarks);
+  } else {
+    observe(landmark, candidate, keyframe, config_.landmarks);
+    restart_if_better(landmark, trajectory_, config_.graph);
   }
 }
 
@@ -103,17 +113,23 @@ void Slam::expect(const std::vector<int>& measured) {
     if (std::find(measured.begin(), measured.end(), static_cast<int>(l)) != measured.end())
       continue;
     const double distance = (objects::place(landmarks_[l].model) - here).norm();
-    if (in_view(landmarks_[l], distance, config_.landmarks)) ++landmarks_[l].expected;
+    if (in_view(landmarks_[l], distance)) ++landmarks_[l].expected;
   }
 }
 
 void Slam::review(SlamUpdate& report) {
   report.merged = merge_duplicates(landmarks_, config_.duplicates, config_.landmarks);
+  for (Landmark& landmark : landmarks_) {
+    if (landmark.moving || !moves(landmark, trajectory_, config_.landmarks)) continue;
+    landmark.moving = true;
+    ++report.removed;
+  }
   const auto gone = [this](const Landmark& landmark) {
-    return landmark.seen_moving > std::max(2, landmark.seen) ||
-           moves(landmark, trajectory_, config_.landmarks);
+    const double unseen = to_seconds(*last_stamp_ - landmark.last_stamp);
+    return landmark.moving ? unseen > config_.landmarks.track_s
+                           : landmark.seen_moving > std::max(2, landmark.seen);
   };
-  report.removed = static_cast<int>(std::erase_if(landmarks_, gone));
+  std::erase_if(landmarks_, gone);
   while (static_cast<int>(landmarks_.size()) > config_.landmarks.most) {
     landmarks_.erase(
         std::min_element(landmarks_.begin(), landmarks_.end(),
@@ -124,7 +140,7 @@ void Slam::review(SlamUpdate& report) {
 
 void Slam::optimise(const core::Budget& budget, SlamUpdate& report) {
   for (Landmark& landmark : landmarks_) {
-    if (!believed(landmark, table_, config_.landmarks))
+    if (!landmark.moving && !believed(landmark, table_, config_.landmarks))
       refine(landmark, trajectory_, config_.graph);
   }
   const std::vector<Landmark*> in_graph = believed_ones(landmarks_, table_, config_.landmarks);

@@ -124,6 +124,7 @@ class Slam {
   [[nodiscard]] std::vector<Candidate> accepted(const objects::Detections& detections,
                                                 SlamUpdate& report) const;
   void integrate(const std::vector<Candidate>& candidates, SlamUpdate& report);
+  void take(Landmark& landmark, const Candidate& candidate);
   void expect(const std::vector<int>& measured);  ///< counts what was in view and not measured
   void review(SlamUpdate& report);
   void optimise(const core::Budget& budget, SlamUpdate& report);

@@ -1,0 +1,94 @@
+#include "slam/association.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "made_world.h"
+#include "slam/duplicates.h"
+
+namespace saker::slam {
+namespace {
+
+using namespace made;
+
+const objects::ClassTable kTable;
+
+Landmark landmark_at(int id, const Model& model, objects::ClassId class_id, int keyframe = 0) {
+  objects::Measurement m;
+  m.class_id = class_id;
+  m.class_probability = probability(class_id);
+  const Eigen::Index size = is_cuboid(model) ? 9 : 6;
+  const Candidate candidate{&m, {model, 0.01 * Eigen::MatrixXd::Identity(size, size)}, model, 10};
+  return new_landmark(id, candidate, keyframe, {});
+}
+
+struct Scene {
+  std::vector<objects::Measurement> measurements;
+  std::vector<Landmark> landmarks;
+
+  [[nodiscard]] std::vector<int> associated() const {
+    std::vector<Candidate> candidates;
+    for (const auto& m : measurements) candidates.push_back({&m, {m.model, {}}, m.model, 10});
+    return associate(candidates, landmarks, kTable, {});
+  }
+  void measure(const Model& model, objects::ClassId id) {
+    measurements.emplace_back().model = model;
+    measurements.back().class_id = id;
+  }
+};
+
+TEST(Association, NearestPairsFirstOneToOne) {
+  Scene scene;
+  scene.landmarks = {landmark_at(0, car(0, 0, 0), kVehicle),
+                     landmark_at(1, car(0, 2.5, 0), kVehicle)};
+  scene.measure(car(0, 1.2, 0), kVehicle);  // between both, nearer to the first
+  scene.measure(car(0, 0.1, 0), kVehicle);
+  scene.measure(car(20, 0, 0), kVehicle);
+  EXPECT_EQ(scene.associated(), (std::vector<int>{1, 0, -1}));
+}
+
+TEST(Association, ShapesDoNotMixButTrunksAndPolesDo) {
+  Scene scene;
+  scene.landmarks = {landmark_at(0, car(0, 0, 0), kVehicle), landmark_at(1, trunk(9, 0), kTrunk)};
+  scene.measure(trunk(0, 0), kTrunk);
+  scene.measure(trunk(9.2, 0), kPole);
+  scene.measure(trunk(9.7, 0), kPole);  // within the gate of a trunk, not of another class
+  EXPECT_EQ(scene.associated(), (std::vector<int>{-1, 1, -1}));
+}
+
+TEST(Association, PartOfAVehicleBelongsToTheVehicleItLiesOn) {
+  const AssociationConfig config;
+  EXPECT_TRUE(std::isfinite(association_distance(car(1.9, 0, 0, 0.6), car(0, 0, 0), true, config)));
+  EXPECT_FALSE(std::isfinite(association_distance(car(0, 2.2, 0), car(0, 0, 0), true, config)));
+  Cuboid above = car(0, 0, 0);
+  above.pose.translation().z() += 3;  // a storey up
+  EXPECT_FALSE(std::isfinite(association_distance(above, car(0, 0, 0), true, config)));
+}
+
+TEST(Duplicates, OverlappingVehiclesAreOneAndKeepTheOlderId) {
+  std::vector<Landmark> landmarks = {landmark_at(4, car(0, 0, 0), kVehicle, 0),
+                                     landmark_at(6, car(30, 0, 0), kVehicle, 0),
+                                     landmark_at(9, car(1, 0.2, 3.1), kVehicle, 1)};
+  landmarks[2].seen = 5;  // the younger one is known better
+  EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
+  ASSERT_EQ(landmarks.size(), 2U);
+  EXPECT_EQ(landmarks[0].id, 4);
+  EXPECT_EQ(landmarks[0].observations.size(), 2U);
+  EXPECT_EQ(landmarks[0].seen, 6);
+  EXPECT_NEAR(objects::place(landmarks[0].model).x(), 1, 1e-9);
+  const auto& turned_one = std::get<Cuboid>(landmarks[0].observations[0].measured.model);
+  EXPECT_NEAR(std::abs(core::yaw(turned_one.pose.linear())), std::numbers::pi,
+              0.1);  // named as the kept one
+}
+
+TEST(Duplicates, NeighboursAndOtherShapesStay) {
+  std::vector<Landmark> landmarks = {
+      landmark_at(0, car(0, 0, 0), kVehicle), landmark_at(1, car(0, 2.4, 0), kVehicle),
+      landmark_at(2, trunk(0, 0.5), kTrunk), landmark_at(3, trunk(0, 1.2), kPole)};
+  EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 0);
+  EXPECT_EQ(landmarks.size(), 4U);
+}
+
+}  // namespace
+}  // namespace saker::slam
