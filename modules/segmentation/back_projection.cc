@@ -6,7 +6,12 @@ namespace saker::segmentation {
 namespace {
 
 constexpr int kRowsAround = 1, kColumnsAround = 2;
-constexpr float kNear = 0.15F;  // m: a pixel's point this far away counts half
+constexpr float kNear = 0.3F;  // m: a pixel's point this far away counts half
+
+int wrapped(int column, int columns) {
+  if (column < 0) return (column + columns) % columns;
+  return column < columns ? column : column % columns;
+}
 
 }  // namespace
 
@@ -18,13 +23,12 @@ void BackProjection::vote(const Eigen::Vector3f& point, std::size_t pixel, const
   for (int r = std::max(row - kRowsAround, 0); r <= std::min(row + kRowsAround, image.rows - 1);
        ++r) {
     for (int d = -kColumnsAround; d <= kColumnsAround; ++d) {
-      const int c = (column + d + image.columns) % image.columns;
-      const std::size_t i = static_cast<std::size_t>(r) * image.columns + c;
+      const std::size_t i =
+          static_cast<std::size_t>(r) * image.columns + wrapped(column + d, image.columns);
       if (!image.valid(i)) continue;
-      const float away = (image.points[i] - point).norm() / kNear;
-      const float weight = 1 / (1 + away * away);
-      for (int k = 0; k < pixels.classes; ++k)
-        votes_[k] += weight * pixels.values[k * image.size() + i];
+      const float weight = 1 / (1 + (image.points[i] - point).squaredNorm() / (kNear * kNear));
+      const float* probability = pixels.at(i);
+      for (int k = 0; k < pixels.classes; ++k) votes_[k] += weight * probability[k];
     }
   }
 }
@@ -37,11 +41,7 @@ lidar::Labels BackProjection::label(const lidar::Scan& scan, const RangeImage& i
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (image.pixel[i] < 0) continue;
     const std::size_t pixel = image.pixel[i];
-    if (image.point[pixel] == static_cast<std::int32_t>(i)) {
-      for (int k = 0; k < pixels.classes; ++k) votes_[k] = pixels.values[k * image.size() + pixel];
-    } else {
-      vote(scan.points[i], pixel, image, pixels);
-    }
+    vote(scan.points[i], pixel, image, pixels);
     float sum = 0;
     for (const float v : votes_) sum += v;
     const auto best = std::max_element(votes_.begin(), votes_.end());

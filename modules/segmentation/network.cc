@@ -1,7 +1,6 @@
 #include "segmentation/network.h"
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
@@ -18,24 +17,12 @@ constexpr int kTrialRows = 8, kTrialColumns = 32;  // smallest image, to see wha
 
 int filled(int n, int multiple) { return (n + multiple - 1) / multiple * multiple; }
 
-/// Softmax over the classes of one pixel, whose scores lie `stride` apart.
-void softmax(const float* score, std::size_t stride, int classes, float* out,
-             std::size_t out_stride) {
-  float highest = score[0], sum = 0;
-  for (int k = 1; k < classes; ++k) highest = std::max(highest, score[k * stride]);
-  for (int k = 0; k < classes; ++k) {
-    const float e = std::exp(score[k * stride] - highest);
-    out[k * out_stride] = e;
-    sum += e;
-  }
-  for (int k = 0; k < classes; ++k) out[k * out_stride] /= sum;
-}
-
 }  // namespace
 
 struct Network::Memory {
   cv::dnn::Net net;
   cv::Mat input, output;
+  Eigen::ArrayXXf scratch;
   int channels = 0, classes = 0;
 };
 
@@ -91,22 +78,28 @@ const PixelProbabilities& Network::run(const std::vector<float>& features, int r
   pad(features, rows, columns);
   memory_->net.setInput(memory_->input);
   memory_->output = memory_->net.forward();
-  const cv::Mat& out = memory_->output;
-  const int classes = memory_->classes;
-  const std::size_t half = out.size[3], stride = half * out.size[2];
-  const std::size_t pixels = static_cast<std::size_t>(rows) * columns;
-  result_.classes = classes, result_.rows = rows, result_.columns = columns;
-  result_.values.resize(classes * pixels);
-  const float* scores = out.ptr<float>();
+  result_.classes = memory_->classes, result_.rows = rows, result_.columns = columns;
+  result_.values.resize(static_cast<std::size_t>(memory_->classes) * rows * columns);
   for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const int c = column + kWrap;  // the head gives two columns' scores at each of its own
-      const float* score = scores + (c % 2) * classes * stride + row * half + c / 2;
-      float* probability = &result_.values[static_cast<std::size_t>(row) * columns + column];
-      softmax(score, stride, classes, probability, pixels);
-    }
+    for (const int parity : {0, 1}) take_row(row, parity);
   }
   return result_;
+}
+
+/// The head gives the scores of two columns of the image at each of its own.
+void Network::take_row(int row, int parity) {
+  const cv::Mat& out = memory_->output;
+  const int classes = memory_->classes, count = (result_.columns + 1 - parity) / 2;
+  const std::ptrdiff_t half = out.size[3], stride = half * out.size[2];
+  const float* first = out.ptr<float>() + parity * classes * stride + row * half + kWrap / 2;
+  const Eigen::Map<const Eigen::ArrayXXf, 0, Eigen::OuterStride<>> scores(
+      first, count, classes, Eigen::OuterStride<>(stride));
+  Eigen::ArrayXXf& scratch = memory_->scratch;
+  scratch = (scores.colwise() - scores.rowwise().maxCoeff()).exp();
+  const std::size_t begin = static_cast<std::size_t>(row) * result_.columns + parity;
+  Eigen::Map<Eigen::ArrayXXf, 0, Eigen::OuterStride<>> probabilities(
+      &result_.values[begin * classes], classes, count, Eigen::OuterStride<>(2 * classes));
+  probabilities = (scratch.colwise() / scratch.rowwise().sum()).transpose();
 }
 
 }  // namespace saker::segmentation

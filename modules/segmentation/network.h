@@ -6,10 +6,12 @@
 
 namespace saker::segmentation {
 
-/// The probability of each class at each pixel: class × row × column.
+/// The probability of each class at each pixel: row × column × class.
 struct PixelProbabilities {
   int classes = 0, rows = 0, columns = 0;
   std::vector<float> values;
+
+  [[nodiscard]] const float* at(std::size_t pixel) const { return &values[pixel * classes]; }
 };
 
 /// The network of tools/training/model.py, by OpenCV's DNN on one thread. The image is wrapped
@@ -30,6 +32,7 @@ class Network {
  private:
   struct Memory;
   void pad(const std::vector<float>& features, int rows, int columns);
+  void take_row(int row, int parity);
 
   std::unique_ptr<Memory> memory_;
   PixelProbabilities result_;

@@ -35,7 +35,7 @@ def main():
     with torch.no_grad():
         scores = network.scores(model(torch.from_numpy(evaluation.padded(values))[None]))[0]
     pad = evaluation.PAD
-    probability = scores[:, :ROWS, pad:pad + COLUMNS].softmax(0).contiguous()
+    probability = scores[:, :ROWS, pad:pad + COLUMNS].softmax(0).permute(1, 2, 0).contiguous()
     values.tofile(folder / "features.f32")
     probability.numpy().tofile(folder / "probabilities.f32")
     export.export(model, folder / "network.onnx")
