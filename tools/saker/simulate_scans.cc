@@ -15,7 +15,7 @@ struct SimulateOptions {
 };
 
 int simulate_scans(const SimulateOptions& options, const CommonOptions& common) {
-  const auto scenario = core::load_config<simulation::Scenario>(options.scenario, common.settings);
+  const auto scenario = core::load_config<simulation::Scenario>(options.scenario, {});
   const OutputFolder out(common);
   std::optional<core::Progress> bar;
   const auto progress = [&](int done, int total) {
