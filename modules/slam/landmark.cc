@@ -9,7 +9,8 @@ namespace {
 using objects::Cuboid;
 
 constexpr double kMostLog = 12;  // of odds between classes: later measurements can still turn them
-constexpr double kMostFront = 10;  // the same for front and back
+constexpr std::size_t kRecentWindows = 10;  // 5 s: half a metre a second shows
+constexpr double kMostFront = 10;           // the same for front and back
 
 bool turns_by_quarters(const Cuboid& a, const Cuboid& b, const LandmarkConfig& config) {
   return std::min(elongation(a), elongation(b)) < config.square_elongation;
@@ -59,6 +60,15 @@ Gaussian turned_by(const Gaussian& measured, int quarters) {
   return is_cuboid(measured.model) ? turned(measured, quarters) : measured;
 }
 
+void track(Landmark& landmark, const Model& in_world, Time stamp, const LandmarkConfig& config) {
+  const auto* cuboid = std::get_if<Cuboid>(&in_world);
+  if (cuboid == nullptr) return;
+  auto& recent = landmark.recent;
+  if (to_seconds(stamp - landmark.last_stamp) > config.track_s) recent.clear();
+  if (recent.size() >= kRecentWindows) recent.erase(recent.begin());
+  recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>()});
+}
+
 void count(Landmark& landmark, const Candidate& candidate) {
   ++landmark.seen;
   ++landmark.expected;
@@ -100,6 +110,9 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
   remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn)});
   raise(landmark.model, candidate.in_world);
+  Model in_world = candidate.in_world;
+  if (is_cuboid(in_world)) in_world = turned(std::get<Cuboid>(in_world), turn);
+  track(landmark, in_world, candidate.measurement->stamp, config);
   count(landmark, candidate);
 }
 
@@ -178,20 +191,16 @@ bool in_view(const Landmark& landmark, double distance) {
   return distance <= landmark.farthest && distance >= landmark.nearest;
 }
 
-bool moves(const Landmark& landmark, const Trajectory& trajectory, const LandmarkConfig& config) {
-  if (!is_cuboid(landmark.model) || landmark.observations.size() < 2) return false;
+bool moves(const Landmark& landmark, const LandmarkConfig& config) {
+  if (landmark.recent.size() < 2) return false;
   const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
   double longest = config.vehicle_length_m;
-  for (const Observation& observation : landmark.observations) {
-    const Keyframe* keyframe = trajectory.find(observation.keyframe);
-    if (keyframe == nullptr) continue;
-    const auto& measured = std::get<Cuboid>(observation.measured.model);
-    const Eigen::Vector2d centre =
-        (T_cuboid_world * keyframe->T_world_lidar * measured.pose.translation()).head<2>();
-    low = low.cwiseMin(centre - 0.5 * measured.size.head<2>());
-    high = high.cwiseMax(centre + 0.5 * measured.size.head<2>());
-    longest = std::max(longest, measured.size.head<2>().maxCoeff());
+  for (const Footprint& footprint : landmark.recent) {
+    const Eigen::Vector2d centre = (T_cuboid_world * footprint.centre).head<2>();
+    low = low.cwiseMin(centre - 0.5 * footprint.size);
+    high = high.cwiseMax(centre + 0.5 * footprint.size);
+    longest = std::max(longest, footprint.size.maxCoeff());
   }
   return (high - low).maxCoeff() > longest + config.moving_distance_m;
 }

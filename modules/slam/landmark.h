@@ -70,6 +70,13 @@ struct Observation {
   Gaussian measured;  ///< in the keyframe's lidar frame, cuboids named as the landmark's
 };
 
+/// Where a cuboid was measured in one window: its bottom, in the world frame as it was estimated
+/// then.
+struct Footprint {
+  Eigen::Vector3d centre;
+  Eigen::Vector2d size;
+};
+
 /// An object of the graph, or a candidate for one.
 struct Landmark {
   int id = -1;
@@ -78,10 +85,11 @@ struct Landmark {
   std::vector<double>
       class_log;  ///< of the fused class probability, one an entry of the class table
   Eigen::Vector2d front =
-      Eigen::Vector2d::Zero();  ///< log-odds that the front is along +x, along +y
-  int seen = 0;                 ///< windows in which it was measured
-  int expected = 0;             ///< windows in which it should have been, `seen` included
-  int seen_moving = 0;          ///< windows in which what was measured there moved
+      Eigen::Vector2d::Zero();    ///< log-odds that the front is along +x, along +y
+  int seen = 0;                   ///< windows in which it was measured
+  int expected = 0;               ///< windows in which it should have been, `seen` included
+  int seen_moving = 0;            ///< windows in which what was measured there moved
+  std::vector<Footprint> recent;  ///< the last windows', oldest first; one track without a gap
   bool moving =
       false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
   int still = 0;  ///< windows for which what moved has stood
@@ -126,10 +134,9 @@ void forget(Landmark& landmark, int serial);
 /// measured.
 [[nodiscard]] bool in_view(const Landmark& landmark, double distance);
 
-/// Whether the footprints that were measured cover together more than one object: it moves. What is
-/// seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
-[[nodiscard]] bool moves(const Landmark& landmark, const Trajectory& trajectory,
-                         const LandmarkConfig& config);
+/// Whether the footprints that were measured lately cover together more than one object: it moves.
+/// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
+[[nodiscard]] bool moves(const Landmark& landmark, const LandmarkConfig& config);
 
 /// Quarters that turn a cuboid's frame to its name: the longer edge is the length, x points to the
 /// front.

@@ -120,7 +120,7 @@ void Slam::expect(const std::vector<int>& measured) {
 void Slam::review(SlamUpdate& report) {
   report.merged = merge_duplicates(landmarks_, config_.duplicates, config_.landmarks);
   for (Landmark& landmark : landmarks_) {
-    if (landmark.moving || !moves(landmark, trajectory_, config_.landmarks)) continue;
+    if (landmark.moving || !moves(landmark, config_.landmarks)) continue;
     landmark.moving = true;
     ++report.removed;
   }
