@@ -33,9 +33,26 @@ def mirror(points, labels):
 
 
 def tilt(points, labels, rng, most=0.17):
-    """The sensor banks; the network must find up by itself. Scale: objects are not always of the simulator's sizes."""
-    turn = rotation(*rng.uniform(-most, most, 2), 0) * np.float32(rng.uniform(0.9, 1.1))
-    return points @ turn.T, labels
+    """The sensor banks; the network must find up by itself."""
+    return points @ rotation(*rng.uniform(-most, most, 2), 0).T, labels
+
+
+def stretch(points, labels, rng):
+    """Objects are not always of the simulator's sizes and shapes; a slope along one direction does no harm either."""
+    x, y, z = rng.uniform(0.9, 1.1), rng.uniform(0.9, 1.1), rng.uniform(0.85, 1.2)
+    slope = rng.normal(0, 0.03, 2)
+    shape = np.array([[x, 0, 0], [0, y, 0], [slope[0], slope[1], z]], np.float32)
+    return points @ shape.T, labels
+
+
+def rough_ground(points, labels, rng):
+    """Grass and gravel: the ground of some columns is rough by centimetres, more so in some rows."""
+    rows, columns = labels.shape
+    sigma = rng.uniform(0, 0.05) * np.repeat(rng.random((rows, columns // 32)), 32, 1)
+    lifted = points.copy()
+    ground = labels[:, :sigma.shape[1]] == 4
+    lifted[:, :sigma.shape[1], 2] += ground * np.abs(rng.normal(0, 1, sigma.shape)) * sigma
+    return lifted, labels
 
 
 def noise(points, labels, rng):
@@ -97,6 +114,10 @@ def augment(points, labels, rng):
     if rng.random() < 0.2:
         points, labels = zigzag(points.copy(), labels.copy(), rng)
     points, labels = noise(points, labels, rng)
+    if rng.random() < 0.7:
+        points, labels = stretch(points, labels, rng)
+    if rng.random() < 0.3:
+        points, labels = rough_ground(points, labels, rng)
     if rng.random() < 0.7:
         points, labels = tilt(points, labels, rng)
     if rng.random() < 0.4:
