@@ -23,7 +23,10 @@ std::vector<Eigen::Vector3d> moved(const SE3& T, const std::vector<Eigen::Vector
 }  // namespace
 
 Detection::Detection(const DetectionConfig& config, const objects::ClassTable& table)
-    : config_(core::checked(config, "detection")), table_(table), ground_(config.ground) {}
+    : config_(core::checked(config, "detection")),
+      table_(table),
+      ground_(config.ground),
+      surroundings_(config.surroundings) {}
 
 objects::Detections Detection::detect(std::span<const LabelledScan> window) {
   objects::Detections result;
@@ -47,6 +50,7 @@ void Detection::detect_vehicles(objects::Detections& result) {
 }
 
 void Detection::detect_trunks(objects::Detections& result) {
+  surroundings_.fill(window_.others, config_.window.other_stride, ground_);
   keep_above_ground(window_.cylinders, config_.trunk.lowest_m, config_.trunk.highest_m);
   for (const Indices& cluster : clusters(window_.cylinders, nullptr, config_.trunk_clusters)) {
     add_trunk(cluster, result);
@@ -81,7 +85,27 @@ std::vector<Detection::Indices> Detection::clusters(const std::vector<ClassPoint
   return found;
 }
 
+bool Detection::seen_often(const std::vector<ClassPoint>& points, const Indices& indices) const {
+  std::vector<char> seen(window_.sensors.size(), 0);
+  for (const int i : indices) seen[points[i].scan] = 1;
+  const auto count = static_cast<double>(std::count(seen.begin(), seen.end(), 1));
+  return count >= config_.least_scan_share * static_cast<double>(seen.size());
+}
+
+/// Compares with the object's own points between the same heights.
+bool Detection::stands_free(const Indices& indices, const objects::Cylinder& cylinder) const {
+  const SurroundingsConfig& c = config_.surroundings;
+  int own = 0;
+  for (const int i : indices) {
+    const double height = window_.cylinders[i].position.z() - cylinder.root.z();
+    own += height >= c.lowest_m && height <= c.highest_m ? 1 : 0;
+  }
+  const int around = surroundings_.count(cylinder.root.head<2>().cast<float>(), cylinder.radius);
+  return around <= c.most_share * own;
+}
+
 void Detection::add_vehicle(const Indices& indices, int splits, objects::Detections& result) {
+  if (!seen_often(window_.cuboids, indices)) return;
   const Eigen::Vector3d middle = mean_of(window_.cuboids, indices);
   const objects::GroundPlane* ground = ground_.at(middle);
   if (!ground) return;
@@ -116,6 +140,7 @@ void Detection::split_vehicle(const Indices& indices, int splits, objects::Detec
 }
 
 void Detection::add_trunk(const Indices& indices, objects::Detections& result) {
+  if (!seen_often(window_.cylinders, indices)) return;
   const Eigen::Vector3d middle = mean_of(window_.cylinders, indices);
   const objects::GroundPlane* ground = ground_.at(middle);
   if (!ground) return;
@@ -128,6 +153,7 @@ void Detection::add_trunk(const Indices& indices, objects::Detections& result) {
   }
   const TrunkFit fit = fit_trunk(points, T_local_level * window_.sensors.front(), config_.trunk);
   if (fit.status != TrunkStatus::fitted) return;
+  if (!stands_free(indices, transformed(T_level_local, fit.cylinder))) return;
   const SE3 T_lidar_local = window_.T_lidar_level * T_level_local;
   objects::Measurement m = measurement(window_.cylinders, indices, result);
   m.model = transformed(T_lidar_local, fit.cylinder);

@@ -5,6 +5,7 @@
 
 #include "detection/clusters.h"
 #include "detection/ground.h"
+#include "detection/surroundings.h"
 #include "detection/trunk.h"
 #include "detection/vehicle.h"
 #include "detection/window.h"
@@ -22,6 +23,7 @@ namespace saker::detection {
 
 struct DetectionConfig {
   double window_s = 1.0;
+  double least_scan_share = 0.5;
   int most_splits = 2;
   double split_ratio = 0.6;
   WindowConfig window;
@@ -30,12 +32,17 @@ struct DetectionConfig {
   VehicleConfig vehicle;
   ClusterConfig trunk_clusters = {0.05, 0.3, 6};
   TrunkConfig trunk;
+  SurroundingsConfig surroundings;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("window_s", window_s, {0.05, 10}, "s",
             "scans that are accumulated (paper: 1 to 3); longer shows more sides, but odometry "
             "drifts within it");
+    v.field("least_scan_share", least_scan_share, {0, 1}, "",
+            "of the window's scans that must have seen an object: what stands is seen by all, what "
+            "drives by leaves a "
+            "piece in one, and false labels flicker");
     v.field("most_splits", most_splits, {0, 5}, "",
             "how often a cluster too large for one vehicle is clustered again, more finely");
     v.field("split_ratio", split_ratio, {0.1, 0.95}, "",
@@ -46,6 +53,7 @@ struct DetectionConfig {
     v.group("vehicle", vehicle, "cuboids");
     v.group("trunk_clusters", trunk_clusters, "clusters of trunk and pole points");
     v.group("trunk", trunk, "cylinders");
+    v.group("surroundings", surroundings, "what stands around trunks and poles");
   }
 };
 
@@ -65,6 +73,9 @@ class Detection {
   void add_vehicle(const Indices& indices, int splits, objects::Detections& result);
   void split_vehicle(const Indices& indices, int splits, objects::Detections& result);
   void add_trunk(const Indices& indices, objects::Detections& result);
+  [[nodiscard]] bool stands_free(const Indices& indices, const objects::Cylinder& cylinder) const;
+  [[nodiscard]] bool seen_often(const std::vector<ClassPoint>& points,
+                                const Indices& indices) const;
   void keep_above_ground(std::vector<ClassPoint>& points, double lowest, double highest) const;
   [[nodiscard]] std::vector<Indices> clusters(const std::vector<ClassPoint>& points,
                                               const Indices* of, const ClusterConfig& config);
@@ -78,6 +89,7 @@ class Detection {
   objects::ClassTable table_;
   Window window_;
   Ground ground_;
+  Surroundings surroundings_;
   Clusters clusters_;
   std::vector<Eigen::Vector2f> places_;
 };

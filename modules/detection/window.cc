@@ -33,12 +33,14 @@ class Gatherer {
     const auto& points = *scan.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const objects::Shape shape = shapes_[scan.labels->classes[i]];
-      if (shape == objects::Shape::none) continue;
-      const bool ground = shape == objects::Shape::plane;
+      const bool other = shape == objects::Shape::none, ground = shape == objects::Shape::plane;
+      if (other && ++others_seen_ % config_.other_stride != 0) continue;
       if (ground && ++ground_seen_ % config_.ground_stride != 0) continue;
       if (!(points[i].squaredNorm() <= range_squared_)) continue;  // NaN too
       const Eigen::Vector3f position = R * points[i] + t;
-      if (ground) {
+      if (other) {
+        if (window_.others.size() < most_) window_.others.push_back(position);
+      } else if (ground) {
         window_.ground.push_back(position);
       } else {
         add_object(shape, position, scan.labels->probability[i], scan.labels->classes[i]);
@@ -61,6 +63,7 @@ class Gatherer {
   float range_squared_;
   std::size_t most_;
   int ground_seen_ = 0;
+  int others_seen_ = 0;
   Window& window_;
 };
 
@@ -73,6 +76,7 @@ void gather(std::span<const LabelledScan> scans, const objects::ClassTable& tabl
   window.cuboids.clear();
   window.cylinders.clear();
   window.ground.clear();
+  window.others.clear();
   if (scans.empty() || !scans.back().T_odom_lidar.matrix().allFinite()) return;
   SE3 T_odom_level = SE3::Identity();
   T_odom_level.translation() = scans.back().T_odom_lidar.translation();

@@ -28,6 +28,7 @@ struct WindowConfig {
   double range_m = 60;
   double least_probability = 0.4;
   int ground_stride = 3;
+  int other_stride = 3;
   int most_points = 400000;
 
   template <class Visitor>
@@ -38,6 +39,8 @@ struct WindowConfig {
             "of the label of an object's point; the ground takes all");
     v.field("ground_stride", ground_stride, {1, 100}, "points",
             "every which ground point is used: a plane needs few");
+    v.field("other_stride", other_stride, {1, 100}, "points",
+            "every which point of no object is used: what stands around trunks and poles");
     v.field("most_points", most_points, {1000, 10000000}, "points",
             "object points of one shape in a window; the rest is left out");
   }
@@ -58,6 +61,7 @@ struct Window {
   std::vector<ClassPoint> cuboids;       ///< of classes that are cuboids
   std::vector<ClassPoint> cylinders;     ///< of classes that are cylinders
   std::vector<Eigen::Vector3f> ground;   ///< of classes that are planes
+  std::vector<Eigen::Vector3f> others;   ///< of classes that are no object
 };
 
 /// Fills `window` from the scans, keeping its memory. Scans without points, with labels of another

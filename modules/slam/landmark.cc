@@ -60,13 +60,16 @@ Gaussian turned_by(const Gaussian& measured, int quarters) {
   return is_cuboid(measured.model) ? turned(measured, quarters) : measured;
 }
 
-void track(Landmark& landmark, const Model& in_world, Time stamp, const LandmarkConfig& config) {
+void track(Landmark& landmark, const Model& in_world, const objects::Measurement& measurement,
+           const LandmarkConfig& config) {
   const auto* cuboid = std::get_if<Cuboid>(&in_world);
   if (cuboid == nullptr) return;
   auto& recent = landmark.recent;
-  if (to_seconds(stamp - landmark.last_stamp) > config.track_s) recent.clear();
+  if (to_seconds(measurement.stamp - landmark.last_stamp) > config.track_s)
+    recent.clear();
   if (recent.size() >= kRecentWindows) recent.erase(recent.begin());
-  recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>()});
+  const double sd = std::sqrt(measurement.covariance.block<2, 2>(3, 3).trace());
+  recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>(), sd});
 }
 
 void count(Landmark& landmark, const Candidate& candidate) {
@@ -112,7 +115,7 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   raise(landmark.model, candidate.in_world);
   Model in_world = candidate.in_world;
   if (is_cuboid(in_world)) in_world = turned(std::get<Cuboid>(in_world), turn);
-  track(landmark, in_world, candidate.measurement->stamp, config);
+  track(landmark, in_world, *candidate.measurement, config);
   count(landmark, candidate);
 }
 
@@ -187,8 +190,9 @@ bool believed(const Landmark& landmark, const objects::ClassTable& table,
   return shape_probability(landmark, table) >= 0.5;
 }
 
-bool in_view(const Landmark& landmark, double distance) {
-  return distance <= landmark.farthest && distance >= landmark.nearest;
+bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config) {
+  return distance <= landmark.farthest &&
+         distance >= std::min(landmark.nearest, config.surely_seen_m);
 }
 
 bool moves(const Landmark& landmark, const LandmarkConfig& config) {
@@ -198,8 +202,9 @@ bool moves(const Landmark& landmark, const LandmarkConfig& config) {
   double longest = config.vehicle_length_m;
   for (const Footprint& footprint : landmark.recent) {
     const Eigen::Vector2d centre = (T_cuboid_world * footprint.centre).head<2>();
-    low = low.cwiseMin(centre - 0.5 * footprint.size);
-    high = high.cwiseMax(centre + 0.5 * footprint.size);
+    const Eigen::Vector2d half = 0.5 * footprint.size - 2 * Eigen::Vector2d::Constant(footprint.sd);
+    low = low.cwiseMin(centre - half);
+    high = high.cwiseMax(centre + half);
     longest = std::max(longest, footprint.size.maxCoeff());
   }
   return (high - low).maxCoeff() > longest + config.moving_distance_m;

@@ -14,13 +14,14 @@ namespace saker::slam {
 struct LandmarkConfig {
   int confirm_observations = 3;
   double confirm_span_s = 0.9;
-  double least_seen_ratio = 0.25;
+  double least_seen_ratio = 0.4;
+  double surely_seen_m = 8;
   double track_s = 3;
-  int still_windows = 6;
+  int still_windows = 20;
   double still_m = 0.4;
   double square_elongation = 2;
   double class_clamp = 0.05;
-  double moving_distance_m = 1.5;
+  double moving_distance_m = 1.0;
   double vehicle_length_m = 5;
   int most = 1000;
 
@@ -34,10 +35,13 @@ struct LandmarkConfig {
     v.field(
         "least_seen_ratio", least_seen_ratio, {0, 1}, "",
         "of the windows in which the object should have been measured; below, it is not believed");
+    v.field("surely_seen_m", surely_seen_m, {0, 100}, "m",
+            "from this distance on a sensor in flight does not look over an object");
     v.field("track_s", track_s, {0, 60}, "s",
             "for which a moving object that is out of sight is remembered");
     v.field("still_windows", still_windows, {1, 1000}, "",
-            "in which what moved must stand before it counts as an object again");
+            "in which what moved must stand before it counts as an object again: 10 s, longer than "
+            "most stops in traffic");
     v.field("still_m", still_m, {0, 5}, "m",
             "between windows: less is standing, the noise of a measured centre");
     v.field("square_elongation", square_elongation, {1, 10}, "",
@@ -75,6 +79,7 @@ struct Observation {
 struct Footprint {
   Eigen::Vector3d centre;
   Eigen::Vector2d size;
+  double sd = 0;  ///< of the centre, m: what was not seen may lie elsewhere
 };
 
 /// An object of the graph, or a candidate for one.
@@ -130,9 +135,9 @@ void forget(Landmark& landmark, int serial);
 [[nodiscard]] bool believed(const Landmark& landmark, const objects::ClassTable& table,
                             const LandmarkConfig& config);
 
-/// Whether the robot at `distance` m should measure it: between the distances at which it was
-/// measured.
-[[nodiscard]] bool in_view(const Landmark& landmark, double distance);
+/// Whether the robot at `distance` m should measure it: no farther than where it was measured, and
+/// not so near that the sensor looks over it.
+[[nodiscard]] bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config);
 
 /// Whether the footprints that were measured lately cover together more than one object: it moves.
 /// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.

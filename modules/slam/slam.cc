@@ -113,7 +113,7 @@ void Slam::expect(const std::vector<int>& measured) {
     if (std::find(measured.begin(), measured.end(), static_cast<int>(l)) != measured.end())
       continue;
     const double distance = (objects::place(landmarks_[l].model) - here).norm();
-    if (in_view(landmarks_[l], distance)) ++landmarks_[l].expected;
+    if (in_view(landmarks_[l], distance, config_.landmarks)) ++landmarks_[l].expected;
   }
 }
 
