@@ -48,4 +48,6 @@ void saker_features(const float* points, int rows, int columns, float* features)
 }
 
 int saker_channels() { return saker::segmentation::kChannelCount; }
+
+const char* saker_channel_name(int channel) { return saker::segmentation::kChannels[channel]; }
 }

@@ -11,10 +11,10 @@ import torch
 import yaml
 
 import evaluation
+import inputs
 import labels as classes
 import model as network
 
-CHANNELS = ["valid", "log_range", "height", "fine_height", "normal_up", "right_step", "lower_step", "slope", "elevation"]
 COLUMNS = 1024 + 2 * evaluation.PAD
 
 
@@ -32,7 +32,7 @@ def export(model, file):
 def description(file, state, args):
     return {
         "classes": classes.CLASSES,
-        "channels": CHANNELS,
+        "channels": inputs.CHANNEL_NAMES,
         "sha256": hashlib.sha256(file.read_bytes()).hexdigest(),
         "normalisation": "none: modules/segmentation/features.h gives values in about -3 ... 3",
         "rows": "any (trained on 64, 32 and 16)",

@@ -16,7 +16,9 @@ def load_library():
 
 
 _library = load_library()
+_library.saker_channel_name.restype = ctypes.c_char_p
 CHANNELS = _library.saker_channels()
+CHANNEL_NAMES = [_library.saker_channel_name(i).decode() for i in range(CHANNELS)]
 
 
 def _pointer(array):

@@ -10,6 +10,7 @@ import torch
 
 import evaluation
 import export
+import inputs
 import labels as classes
 import model as network
 
@@ -30,8 +31,8 @@ def random_network(channels):
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    model = random_network(len(export.CHANNELS))
-    values = np.random.default_rng(1).normal(size=(len(export.CHANNELS), ROWS, COLUMNS)).astype(np.float32)
+    model = random_network(inputs.CHANNELS)
+    values = np.random.default_rng(1).normal(size=(inputs.CHANNELS, ROWS, COLUMNS)).astype(np.float32)
     with torch.no_grad():
         scores = network.scores(model(torch.from_numpy(evaluation.padded(values))[None]))[0]
     pad = evaluation.PAD
