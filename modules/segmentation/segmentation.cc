@@ -46,7 +46,7 @@ fs::path find_model(const std::string& model) {
   for (const fs::path& folder : config_folders()) {
     const fs::path file = (folder / model).lexically_normal();
     if (fs::is_regular_file(file)) return file;
-    looked += ", " + file.string();
+    if (looked.find(file.string()) == std::string::npos) looked += ", " + file.string();
   }
   throw Error("segmentation.model: no such file: looked for " + looked);
 }
