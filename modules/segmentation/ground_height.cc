@@ -14,9 +14,17 @@ constexpr int kCells = 128;      // a side; beyond 96 m the border's cell answer
 constexpr float kSlope = 0.25F;  // of the ground, at most
 constexpr float kBelow = 1.0F;   // m below the usual level, and …
 constexpr float kFall = 0.08F;   // … this share of the distance: lower points are reflections
+constexpr float kPit = 0.4F;     // m that a cell's lowest point is under those around it
+constexpr int kFew = 12;         // one stray point among so many is dropped
 constexpr float kFar = 1e6F;     // height of a cell without points
 constexpr int kEnoughNormals = 100;
 constexpr std::array<float, 3> kConeCosine = {0.5F, 0.866F, 0.966F};  // 60°, 30°, 15°
+
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 int cell_of(float v) {
   return std::clamp(static_cast<int>(std::floor(v / kCell)) + kCells / 2, 0, kCells - 1);
@@ -91,24 +99,56 @@ float GroundHeight::usual_level() {
   for (std::size_t i = 0; i < normals_.size(); ++i) {
     if (normals_[i].dot(up_) > kConeCosine.back()) scratch_.push_back(level_[i].z());
   }
-  if (scratch_.empty()) return -kFar;
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  return *middle;
+  return scratch_.empty() ? -kFar : median(scratch_);
 }
 
-void GroundHeight::find_lowest(const RangeImage& image) {
+void GroundHeight::sort_into_cells(const RangeImage& image) {
   const float usual = usual_level();
-  lowest_.assign(static_cast<std::size_t>(kCells) * kCells, kFar);
   const std::size_t columns = image.columns;
+  cell_.assign(image.size(), -1);
   for (std::size_t i = 0; i < image.size(); ++i) {
     if (!image.valid(i)) continue;
     if (level_[i].z() < usual - kBelow - kFall * level_[i].head<2>().norm()) continue;
     const std::size_t next = i % columns + 1 < columns ? i + 1 : i + 1 - columns;
     if (!joined(image.range[i], image.range[next], 0.03F)) continue;
-    float& lowest =
-        lowest_[static_cast<std::size_t>(cell_of(level_[i].y())) * kCells + cell_of(level_[i].x())];
-    lowest = std::min(lowest, level_[i].z());
+    cell_[i] = cell_of(level_[i].y()) * kCells + cell_of(level_[i].x());
+  }
+}
+
+void GroundHeight::find_lowest() {
+  lowest_.assign(static_cast<std::size_t>(kCells) * kCells, kFar);
+  for (std::size_t i = 0; i < cell_.size(); ++i) {
+    if (cell_[i] >= 0) lowest_[cell_[i]] = std::min(lowest_[cell_[i]], level_[i].z());
+  }
+}
+
+/// Whether the cell's lowest point lies under the lowest points of most cells around it.
+bool GroundHeight::is_pit(int cell) {
+  if (lowest_[cell] >= kFar) return false;
+  const int row = cell / kCells, column = cell % kCells;
+  scratch_.clear();
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, kCells - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, kCells - 1); ++c) {
+      const int other = r * kCells + c;
+      if (other != cell && lowest_[other] < kFar) scratch_.push_back(lowest_[other]);
+    }
+  }
+  return scratch_.size() >= 3 && lowest_[cell] < median(scratch_) - kPit;
+}
+
+/// Takes the few lowest points out of cells that are pits because of them: mirrored by a car's
+/// side.
+void GroundHeight::drop_strays() {
+  pit_.assign(lowest_.size(), false);
+  for (std::size_t k = 0; k < lowest_.size(); ++k) pit_[k] = is_pit(static_cast<int>(k));
+  auto in_pit = [this](std::size_t i) { return cell_[i] >= 0 && pit_[cell_[i]]; };
+  auto low = [this](std::size_t i) { return level_[i].z() < lowest_[cell_[i]] + kPit; };
+  strays_.assign(lowest_.size(), 0);  // positive: the low ones are few
+  for (std::size_t i = 0; i < cell_.size(); ++i) {
+    if (in_pit(i)) strays_[cell_[i]] += low(i) ? -kFew : 1;
+  }
+  for (std::size_t i = 0; i < cell_.size(); ++i) {
+    if (in_pit(i) && strays_[cell_[i]] > 0 && low(i)) cell_[i] = -1;
   }
 }
 
@@ -152,7 +192,10 @@ void GroundHeight::estimate(const RangeImage& image) {
   find_normals(image);
   find_up();
   level(image);
-  find_lowest(image);
+  sort_into_cells(image);
+  find_lowest();
+  drop_strays();
+  find_lowest();
   limit_slope();
   height_.assign(image.size(), 0.0F);
   for (std::size_t i = 0; i < image.size(); ++i) {

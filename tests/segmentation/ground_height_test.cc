@@ -62,6 +62,22 @@ TEST(GroundHeight, IsNotPulledDownByReflectionsFromBelow) {
   for (std::size_t i = 63 * 1024; i < 64 * 1024; ++i) EXPECT_NEAR(made.ground.height()[i], 0, 0.1);
 }
 
+TEST(GroundHeight, IsNotPulledDownByAFewReflectionsCloseBy) {
+  Made made(MadeScan{});
+  const Eigen::Vector3f mirrored(6, -2, -3.2F);  // 1.2 m below the ground
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::size_t pixel = 50 * 1024 + 560 + i;
+    made.image.points[pixel] = mirrored + Eigen::Vector3f(0, 0.03F * static_cast<float>(i), 0);
+    made.image.range[pixel] = made.image.points[pixel].norm();
+  }
+  made.ground.estimate(made.image);
+  for (std::size_t i = 45 * 1024; i < made.image.size(); ++i) {
+    if (made.image.points[i].z() > -2.1F) {
+      ASSERT_NEAR(made.ground.height()[i], 0, 0.1);
+    }
+  }
+}
+
 TEST(GroundHeight, OfAnImageOfNothingIsZero) {
   RangeImage image;
   project(MadeScan{.height_m = 1000, .wall_m = 1e6F}.organised(), image);
