@@ -47,6 +47,7 @@ def description(file, state, args):
         "widths": state["config"]["widths"],
         "commit": commit(),
         "licence": "BSD-3-Clause",
+        **dict(note.split("=", 1) for note in args.note),
     }
 
 
@@ -57,6 +58,7 @@ def main():
     parser.add_argument("--scenario", required=True)
     parser.add_argument("--scenario-seed", type=int, nargs="+", default=[1])
     parser.add_argument("--scans", type=int, required=True, help="how many it was trained on")
+    parser.add_argument("--note", nargs="*", default=[], metavar="KEY=VALUE", help="more of where they come from")
     args = parser.parse_args()
     args.out.parent.mkdir(parents=True, exist_ok=True)
     export(evaluation.load(args.checkpoint), args.out)
