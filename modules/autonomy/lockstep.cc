@@ -47,8 +47,8 @@ void Lockstep::ingest(lidar::Frame frame, LockstepObserver& observer, LockstepRe
   auto scan = std::make_shared<const lidar::Scan>(std::move(frame.scan));
   odometry::OdometryEstimate estimate =
       timings_.time("odometry", [&] { return odometry_.register_scan(*scan, frame.imu); });
-  result.scans.push_back(
-      {frame.name, scan->stamp, estimate.T_odom_lidar, estimate.status, estimate.reason, frame.fault});
+  result.scans.push_back({frame.name, scan->stamp, estimate.T_odom_lidar, estimate.status,
+                          estimate.reason, frame.fault});
   observer.on_scan(result.scans.back(), estimate);
   if (estimate.status == odometry::OdometryStatus::refused) return;
 

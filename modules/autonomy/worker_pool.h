@@ -11,9 +11,10 @@
 
 namespace saker::autonomy {
 
-/// Runs jobs on threads, each with a Context of its own for as long as it runs (stages that are not shared; which one it
-/// gets must not matter). Jobs start in the order of submission, so a job may wait for the result of an earlier one.
-/// Without threads a job runs inside `submit`. Jobs that have not started at the end are dropped.
+/// Runs jobs on threads, each with a Context of its own for as long as it runs (stages that are not
+/// shared; which one it gets must not matter). Jobs start in the order of submission, so a job may
+/// wait for the result of an earlier one. Without threads a job runs inside `submit`. Jobs that
+/// have not started at the end are dropped.
 template <class Context>
 class WorkerPool {
  public:

@@ -1,7 +1,5 @@
-#include "saker/subcommand.h"
-#ifdef SAKER_CONFIGURATION
 #include "saker/configuration.h"
-#endif
+#include "saker/subcommand.h"
 
 /// One function a subcommand; the list is made from tools/saker/CMakeLists.txt.
 namespace saker::tools {
@@ -12,11 +10,7 @@ namespace saker::tools {
 namespace {
 
 /// A wrong key is refused by every command, also by one that reads no key.
-void check([[maybe_unused]] const CommonOptions& common) {
-#ifdef SAKER_CONFIGURATION
-  (void)read_configuration(common);
-#endif
-}
+void check(const CommonOptions& common) { (void)read_configuration(common); }
 
 }  // namespace
 }  // namespace saker::tools

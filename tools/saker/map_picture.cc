@@ -9,7 +9,8 @@ namespace {
 
 namespace colours = core::colours;
 
-constexpr double kMargin_m = 15;  // shown around trajectory and objects: beyond it points say little
+constexpr double kMargin_m =
+    15;  // shown around trajectory and objects: beyond it points say little
 constexpr core::Colour kTruth = colours::kGrey;
 
 core::Colour colour_of(const objects::ObjectClass& object_class) {
@@ -58,8 +59,8 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
   for (const objects::MapObject& object : view.map.objects) {
     draw(picture, object.model, colour_of(table[object.class_id]), 2);
   }
-  picture.title(fmt::format("{} objects along {} poses", view.map.objects.size(),
-                            view.trajectory.size()));
+  picture.title(
+      fmt::format("{} objects along {} poses", view.map.objects.size(), view.trajectory.size()));
   std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
                                            {core::Mark::ring, colours::kGreen, "trunk"},
                                            {core::Mark::ring, colours::kOrange, "pole"},

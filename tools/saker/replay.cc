@@ -142,7 +142,8 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   const autonomy::LockstepResult result = lockstep.run(watched, recorder);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (result.scans.empty()) throw Error(fmt::format("{}: no scan in it, expected at least one", options.input));
+  if (result.scans.empty())
+    throw Error(fmt::format("{}: no scan in it, expected at least one", options.input));
 
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
@@ -164,20 +165,20 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
 
 void add_replay(Commands& commands) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App& app = commands.add({.name = "replay",
-                                .does = "the pipeline over a recording: trajectory and object map",
-                                .output = Output::folder,
-                                .example = "saker replay drive/ -o out --threads 2"},
-                               [options](const CommonOptions& common) {
-                                 return replay(*options, common);
-                               });
+  CLI::App& app =
+      commands.add({.name = "replay",
+                    .does = "the pipeline over a recording: trajectory and object map",
+                    .output = Output::folder,
+                    .example = "saker replay drive/ -o out --threads 2"},
+                   [options](const CommonOptions& common) { return replay(*options, common); });
   app.add_option("INPUT", options->input,
                  "a folder of KITTI scans (*.bin, or with velodyne/ in it) or an Ouster capture "
                  "(*.pcap)")
       ->required();
   app.add_option("--format", options->format, "kitti or ouster; found out when not given")
       ->check(CLI::IsMember({"auto", "kitti", "ouster"}));
-  app.add_option("--meta", options->metadata, "the sensor's metadata; beside the capture when not given");
+  app.add_option("--meta", options->metadata,
+                 "the sensor's metadata; beside the capture when not given");
   app.add_option("--truth", options->truth, "a truth.json: drawn into map.png, and compared with");
 }
 

@@ -14,8 +14,8 @@ struct StampedPose {
   SE3 T_world_lidar = SE3::Identity();
 };
 
-/// What a simulator knows of a recording: the objects, and the trajectory where `trajectory_truth.txt` (TUM rows) lies
-/// beside truth.json.
+/// What a simulator knows of a recording: the objects, and the trajectory where
+/// `trajectory_truth.txt` (TUM rows) lies beside truth.json.
 struct Truth {
   objects::ObjectMap map;
   std::vector<StampedPose> trajectory;
@@ -24,8 +24,9 @@ struct Truth {
 /// Throws Error where a file is missing or malformed; a missing trajectory is none.
 [[nodiscard]] Truth read_truth(const std::filesystem::path& file, const objects::ClassTable& table);
 
-/// RMS and greatest error of position (m), RMS error of rotation (deg) over the scans whose stamp (to 1 ms) the truth has,
-/// as given: without alignment, since both start in the same frame. Null where no stamp is the same.
+/// RMS and greatest error of position (m), RMS error of rotation (deg) over the scans whose stamp
+/// (to 1 ms) the truth has, as given: without alignment, since both start in the same frame. Null
+/// where no stamp is the same.
 [[nodiscard]] nlohmann::json trajectory_figures(const autonomy::LockstepResult& result,
                                                 const Truth& truth);
 
