@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -15,6 +16,8 @@ namespace {
 constexpr int kMarginPx = 24;
 constexpr int kTitlePx = 56;
 constexpr int kLegendPx = 64;
+constexpr int kStripCaptionPx = 30;
+constexpr int kLeastStripPx = 128;
 constexpr int kLeastWidthPx = 640;  // room for the legend beside a narrow map
 constexpr int kShift = 4;           // OpenCV draws at 1/16 px
 constexpr double kTextScale = 0.5;
@@ -66,6 +69,18 @@ void blend(cv::Mat& image, const cv::Mat& counts, Colour colour, double strength
 
 }  // namespace
 
+Colour ramp(double fraction) {
+  constexpr Colour kStops[] = {
+      {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
+  const double at = 4 * std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0);
+  const int i = std::min(static_cast<int>(at), 3);
+  const auto mix = [&](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::lround(a + (at - i) * (b - a)));
+  };
+  const Colour a = kStops[i], b = kStops[i + 1];
+  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
+}
+
 void Extent::include(const Eigen::Vector2d& p) {
   if (!p.allFinite()) return;
   low = low.cwiseMin(p);
@@ -86,6 +101,7 @@ Picture::Picture(const Extent& extent, int longest_px) : extent_(extent) {
   const int width = std::max(drawn_width_px_, kLeastWidthPx) + 2 * kMarginPx;
   const int height = drawn_height_px_ + kTitlePx + kLegendPx + 2 * kMarginPx;
   image_ = std::make_unique<cv::Mat>(height, width, CV_8UC3, cv::Scalar(255, 255, 255));
+  strips_ = std::make_unique<cv::Mat>();
   draw_scale_bar();
 }
 
@@ -199,9 +215,33 @@ void Picture::legend(const std::vector<LegendEntry>& entries) {
   }
 }
 
+void Picture::strip(const Raster& raster, const std::string& caption) {
+  if (raster.pixels.empty()) return;
+  cv::Mat pixels(raster.rows, raster.columns, CV_8UC3);
+  for (int v = 0; v < raster.rows; ++v) {
+    for (int u = 0; u < raster.columns; ++u) {
+      const Colour c = raster.pixels[static_cast<std::size_t>(v) * raster.columns + u];
+      pixels.at<cv::Vec3b>(v, u) = {c.blue, c.green, c.red};
+    }
+  }
+  const int width = image_->cols - 2 * kMarginPx;
+  const int height = raster.rows * std::max(1, kLeastStripPx / raster.rows);
+  cv::Mat framed(height + kStripCaptionPx, image_->cols, CV_8UC3, cv::Scalar(255, 255, 255));
+  cv::resize(pixels, framed(cv::Rect(kMarginPx, kStripCaptionPx, width, height)), {width, height},
+             0, 0, cv::INTER_NEAREST);
+  put_text(framed, {kMarginPx, kStripCaptionPx - 8}, caption, colours::kInk);
+  if (strips_->empty()) {
+    *strips_ = framed;
+  } else {
+    cv::vconcat(*strips_, framed, *strips_);
+  }
+}
+
 void Picture::save(const std::filesystem::path& file) const {
   std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", *image_, bytes);
+  cv::Mat whole = *image_;
+  if (!strips_->empty()) cv::vconcat(*strips_, *image_, whole);
+  cv::imencode(".png", whole, bytes);
   OutputFile out(file);
   out.write(std::span<const std::uint8_t>(bytes));
   out.finish();

@@ -32,6 +32,9 @@ constexpr Colour kYellow{230, 159, 0};
 constexpr Colour kSky{86, 180, 233};
 }  // namespace colours
 
+/// From 0 (dark blue) over green to 1 (yellow): quantities such as a range.
+[[nodiscard]] Colour ramp(double fraction);
+
 /// A rectangle in the plane, m.
 struct Extent {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(INFINITY);
@@ -48,6 +51,13 @@ struct LegendEntry {
   Mark mark = Mark::dot;
   Colour colour;
   std::string text;
+};
+
+/// Rows × columns of colours, row-major.
+struct Raster {
+  int rows = 0;
+  int columns = 0;
+  std::vector<Colour> pixels;
 };
 
 /// A top view on white, x to the right, y up, a title above, legend and scale bar below. Lengths
@@ -76,6 +86,10 @@ class Picture {
   void title(const std::string& text);
   void legend(const std::vector<LegendEntry>& entries);
 
+  /// Puts a raster as wide as the picture, with its caption, above the view and below the strips
+  /// put there before.
+  void strip(const Raster& raster, const std::string& caption);
+
   /// PNG; throws Error where it cannot be written.
   void save(const std::filesystem::path& file) const;
 
@@ -90,6 +104,7 @@ class Picture {
   int drawn_width_px_;
   int drawn_height_px_;
   std::unique_ptr<cv::Mat> image_;
+  std::unique_ptr<cv::Mat> strips_;
 };
 
 }  // namespace saker::core

@@ -11,10 +11,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_capture(const fs::path& path) {
+  return path.extension() == ".pcap" || path.extension() == ".pcapng";
+}
+
+/// The only capture in a folder without KITTI scans; else the path itself.
+fs::path capture_in(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored) || is_kitti_folder(path)) return path;
+  std::vector<fs::path> captures;
+  for (const auto& entry : fs::directory_iterator(path, ignored)) {
+    if (is_capture(entry.path())) captures.push_back(entry.path());
+  }
+  if (captures.size() > 1) {
+    throw Error(path.string() + ": " + std::to_string(captures.size()) +
+                " captures in it, expected one: name the file");
+  }
+  return captures.empty() ? path : captures.front();
+}
+
 RecordingFormat format_of(const fs::path& path) {
   if (fs::is_directory(path)) return RecordingFormat::kKitti;
-  const fs::path extension = path.extension();
-  if (extension == ".pcap" || extension == ".pcapng") return RecordingFormat::kOuster;
+  if (is_capture(path)) return RecordingFormat::kOuster;
   throw Error(path.string() + ": neither a folder of scans nor a capture (*.pcap)");
 }
 
@@ -37,10 +55,11 @@ std::string SourceCounters::summary() const {
   return text;
 }
 
-std::unique_ptr<ScanSource> open_recording(const fs::path& path, RecordingFormat format,
+std::unique_ptr<ScanSource> open_recording(const fs::path& given, RecordingFormat format,
                                            const fs::path& metadata) {
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw Error("cannot read " + path.string() + ": no such file");
+  if (!fs::exists(given, ignored)) throw Error("cannot read " + given.string() + ": no such file");
+  const fs::path path = format == RecordingFormat::kKitti ? given : capture_in(given);
   if (format == RecordingFormat::kAutomatic) format = format_of(path);
   if (format == RecordingFormat::kKitti) return std::make_unique<KittiFolder>(path);
   return std::make_unique<OusterCapture>(path, metadata.empty() ? find_metadata(path) : metadata);

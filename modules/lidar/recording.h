@@ -56,10 +56,9 @@ class ScanSource {
 
 enum class RecordingFormat { kAutomatic, kKitti, kOuster };
 
-/// A folder of KITTI scans (`*.bin`, or with `velodyne/` in it) or an Ouster capture (`*.pcap`)
-/// with its metadata beside it
-/// (`STEM.json`, or STEM without its last `_part`) or given. Throws Error when there is nothing to
-/// read.
+/// A folder of KITTI scans (`*.bin`, or with `velodyne/` in it) or an Ouster capture (`*.pcap`, or
+/// a folder with one and no scans in it) with its metadata beside it (`STEM.json`, or STEM without
+/// its last `_part`) or given. Throws Error when there is nothing to read.
 [[nodiscard]] std::unique_ptr<ScanSource> open_recording(
     const std::filesystem::path& path, RecordingFormat format = RecordingFormat::kAutomatic,
     const std::filesystem::path& metadata = {});

@@ -112,5 +112,34 @@ TEST(Picture, AFileThatCannotBeWrittenIsAnError) {
   EXPECT_THROW(Picture(square()).save("/no/such/folder/map.png"), Error);
 }
 
+TEST(Picture, StripsStandAboveTheViewInTheOrderInWhichTheyCame) {
+  Picture picture(square(), 800);
+  picture.disc({0, 0}, 3, colours::kGreen);
+  const Eigen::Vector2d without = centre_of(saved(picture, "no_strip.png"), colours::kGreen);
+  picture.strip({1, 2, {colours::kBlue, colours::kOrange}}, "first");
+  picture.strip({2, 1, {colours::kPurple, colours::kPurple}}, "second");
+  const cv::Mat image = saved(picture, "strips.png");
+  const Eigen::Vector2d blue = centre_of(image, colours::kBlue);
+  const Eigen::Vector2d orange = centre_of(image, colours::kOrange);
+  const Eigen::Vector2d purple = centre_of(image, colours::kPurple);
+  const Eigen::Vector2d green = centre_of(image, colours::kGreen);
+  EXPECT_LT(blue.x(), orange.x());
+  EXPECT_NEAR(blue.y(), orange.y(), 1);
+  EXPECT_LT(blue.y(), purple.y());
+  EXPECT_LT(purple.y(), green.y());
+  EXPECT_GT(green.y(), without.y() + 200);
+}
+
+TEST(Picture, TheRampGrowsBrighterAndTakesAnyNumber) {
+  const auto brightness = [](double fraction) {
+    const Colour c = ramp(fraction);
+    return c.red + 2 * c.green + c.blue;
+  };
+  for (double f = 0; f < 0.95; f += 0.1) EXPECT_LT(brightness(f), brightness(f + 0.1)) << f;
+  EXPECT_EQ(brightness(-1), brightness(0));
+  EXPECT_EQ(brightness(2), brightness(1));
+  EXPECT_EQ(brightness(NAN), brightness(0));
+}
+
 }  // namespace
 }  // namespace saker::core

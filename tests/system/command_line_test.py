@@ -1,34 +1,11 @@
 """The program from outside: what is wrong gets one line on stderr and status 2, never a crash."""
 
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from program import ROOT, ProgramTest, saker
 
 
-def saker(*arguments, cwd=None):
-    return subprocess.run([os.environ["SAKER"], *map(str, arguments)], cwd=cwd, capture_output=True,
-                          text=True, stdin=subprocess.DEVNULL, timeout=120)
-
-
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="saker_command_line_")
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
-    def refused(self, *arguments):
-        """The one line that says why."""
-        run = saker(*arguments)
-        self.assertEqual(run.returncode, 2, run.stderr)
-        lines = run.stderr.splitlines()
-        self.assertEqual(len(lines), 1, run.stderr)
-        self.assertTrue(lines[0].startswith("saker " + arguments[0]), lines[0])
-        return lines[0]
-
+class CommandLine(ProgramTest):
     def test_the_default_configuration_in_the_repository_is_the_one_in_the_program(self):
         self.assertEqual(saker("config").stdout, (ROOT / "configs/default.yaml").read_text())
 
