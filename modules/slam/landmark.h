@@ -12,7 +12,7 @@
 namespace saker::slam {
 
 struct LandmarkConfig {
-  int confirm_observations = 3;
+  int confirm_observations = 5;
   double confirm_span_s = 0.9;
   double least_seen_ratio = 0.4;
   double surely_seen_m = 8;
