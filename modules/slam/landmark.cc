@@ -65,8 +65,7 @@ void track(Landmark& landmark, const Model& in_world, const objects::Measurement
   const auto* cuboid = std::get_if<Cuboid>(&in_world);
   if (cuboid == nullptr) return;
   auto& recent = landmark.recent;
-  if (to_seconds(measurement.stamp - landmark.last_stamp) > config.track_s)
-    recent.clear();
+  if (to_seconds(measurement.stamp - landmark.last_stamp) > config.track_s) recent.clear();
   if (recent.size() >= kRecentWindows) recent.erase(recent.begin());
   const double sd = std::sqrt(measurement.covariance.block<2, 2>(3, 3).trace());
   recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>(), sd});
