@@ -36,10 +36,13 @@ bool OdometryFactor::Evaluate(double const* const* parameters, double* residuals
   return true;
 }
 
-CuboidFactor::CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance)
+CuboidFactor::CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance,
+                           double shorter_weight)
     : T_measured_lidar_(measured.pose.inverse()),
       size_(measured.size),
-      whitening_(whitening<9>(covariance)) {}
+      whitening_(whitening<9>(covariance)),
+      length_(measured.size.x() >= measured.size.y() ? 0 : 1),
+      shorter_weight_(shorter_weight) {}
 
 bool CuboidFactor::Evaluate(double const* const* parameters, double* residuals,
                             double** jacobians) const {
@@ -47,6 +50,9 @@ bool CuboidFactor::Evaluate(double const* const* parameters, double* residuals,
   Vector9d error;
   error.head<6>() = core::se3_log(T_measured_lidar_ * T_lidar_cuboid);
   error.tail<3>() = Eigen::Map<const Eigen::Vector3d>(parameters[1] + kPoseParameters) - size_;
+  Eigen::Vector3d weight = Eigen::Vector3d::Ones();
+  if (error[6 + length_] > 0) weight[length_] = shorter_weight_;
+  error.tail<3>().array() *= weight.array();
   Eigen::Map<Vector9d>{residuals} = whitening_ * error;
   if (jacobians == nullptr) return true;
   const Eigen::Matrix<double, 9, 6> J =
@@ -58,7 +64,7 @@ bool CuboidFactor::Evaluate(double const* const* parameters, double* residuals,
   if (jacobians[1] != nullptr) {
     JacobianMap<9, 10> object(jacobians[1]);
     object.leftCols<7>() = J * pose_lift(parameters[1]);
-    object.rightCols<3>() = whitening_.rightCols<3>();
+    object.rightCols<3>() = whitening_.rightCols<3>() * weight.asDiagonal();
   }
   return true;
 }
@@ -101,9 +107,10 @@ bool CylinderFactor::Evaluate(double const* const* parameters, double* residuals
 }
 
 std::unique_ptr<ceres::CostFunction> object_factor(const objects::Model& measured,
-                                                   const Eigen::MatrixXd& covariance) {
+                                                   const Eigen::MatrixXd& covariance,
+                                                   double shorter_weight) {
   if (const auto* cuboid = std::get_if<objects::Cuboid>(&measured)) {
-    return std::make_unique<CuboidFactor>(*cuboid, covariance);
+    return std::make_unique<CuboidFactor>(*cuboid, covariance, shorter_weight);
   }
   return std::make_unique<CylinderFactor>(std::get<objects::Cylinder>(measured), covariance);
 }

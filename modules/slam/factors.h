@@ -26,10 +26,16 @@ class OdometryFactor final
 
 /// Equation 1: e = [log(H(z)⁻¹ · T_lidar_world · T_world_cuboid), d − d(z)], Σ in the measured
 /// cuboid's own frame.
+///
+/// With `shorter_weight` below 1 an object that is longer than it was measured costs less than one
+/// that is shorter, by its square: what was seen is there, and part of it may have been hidden
+/// (asymmetric least squares; Newey and Powell, "Asymmetric Least Squares Estimation and Testing",
+/// Econometrica 1987). 1 is the paper's equation.
 class CuboidFactor final
     : public ceres::SizedCostFunction<kCuboidTangent, kPoseParameters, kCuboidParameters> {
  public:
-  CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance);
+  CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance,
+               double shorter_weight = 1);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
@@ -37,6 +43,8 @@ class CuboidFactor final
   SE3 T_measured_lidar_;
   Eigen::Vector3d size_;
   Matrix9d whitening_;
+  Eigen::Index length_;  ///< the longer horizontal side's place in `size_`
+  double shorter_weight_;
 };
 
 /// Equation 2: e = [R b + t − b(z), R n − n(z), r − r(z)], seven rows. Σ is that of the
@@ -56,6 +64,7 @@ class CylinderFactor final
 
 /// The factor between a lidar pose and the object that was measured from it.
 [[nodiscard]] std::unique_ptr<ceres::CostFunction> object_factor(const objects::Model& measured,
-                                                                 const Eigen::MatrixXd& covariance);
+                                                                 const Eigen::MatrixXd& covariance,
+                                                                 double shorter_weight);
 
 }  // namespace saker::slam

@@ -56,7 +56,9 @@ class Graph {
  public:
   Graph(const std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
         const GraphConfig& config)
-      : loss_(config.robust_scale), problem_(keep_ownership()) {
+      : loss_(config.robust_scale),
+        shorter_weight_(config.shorter_weight),
+        problem_(keep_ownership()) {
     reserve(keyframes, landmarks);
     for (std::size_t k = 0; k < keyframes.size(); ++k) add_keyframe(keyframes, k);
     if (!keyframes.empty()) problem_.SetParameterBlockConstant(parameters_.data());
@@ -101,8 +103,9 @@ class Graph {
       const int k = observation.keyframe - keyframes.front().serial;
       if (k < 0) continue;
       const Gaussian& measured = observation.measured;
-      problem_.AddResidualBlock(object_factor(measured.model, measured.covariance).release(),
-                                &loss_, pose(static_cast<std::size_t>(k)), parameters);
+      problem_.AddResidualBlock(
+          object_factor(measured.model, measured.covariance, shorter_weight_).release(), &loss_,
+          pose(static_cast<std::size_t>(k)), parameters);
     }
   }
 
@@ -110,6 +113,7 @@ class Graph {
   CuboidManifold cuboid_manifold_;
   CylinderManifold cylinder_manifold_;
   ceres::CauchyLoss loss_;
+  double shorter_weight_;
   std::vector<double> parameters_;
   std::vector<std::size_t> offsets_;
   ceres::Problem problem_;

@@ -60,14 +60,15 @@ Gaussian turned_by(const Gaussian& measured, int quarters) {
   return is_cuboid(measured.model) ? turned(measured, quarters) : measured;
 }
 
-void track(Landmark& landmark, const Model& in_world, const objects::Measurement& measurement,
+void track(Landmark& landmark, const Model& in_world, const Candidate& candidate,
            const LandmarkConfig& config) {
   const auto* cuboid = std::get_if<Cuboid>(&in_world);
   if (cuboid == nullptr) return;
   auto& recent = landmark.recent;
-  if (to_seconds(measurement.stamp - landmark.last_stamp) > config.track_s) recent.clear();
+  if (to_seconds(candidate.measurement->stamp - landmark.last_stamp) > config.track_s)
+    recent.clear();
   if (recent.size() >= kRecentWindows) recent.erase(recent.begin());
-  const double sd = std::sqrt(measurement.covariance.block<2, 2>(3, 3).trace());
+  const double sd = std::sqrt(candidate.in_keyframe.covariance.block<2, 2>(3, 3).trace());
   recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>(), sd});
 }
 
@@ -114,7 +115,7 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   raise(landmark.model, candidate.in_world);
   Model in_world = candidate.in_world;
   if (is_cuboid(in_world)) in_world = turned(std::get<Cuboid>(in_world), turn);
-  track(landmark, in_world, *candidate.measurement, config);
+  track(landmark, in_world, candidate, config);
   count(landmark, candidate);
 }
 
@@ -195,13 +196,16 @@ bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& co
 }
 
 bool moves(const Landmark& landmark, const LandmarkConfig& config) {
+  constexpr double kSure =
+      1.4;  // standard deviations by which a part that was not seen may lie nearer
   if (landmark.recent.size() < 2) return false;
   const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
   double longest = config.vehicle_length_m;
   for (const Footprint& footprint : landmark.recent) {
     const Eigen::Vector2d centre = (T_cuboid_world * footprint.centre).head<2>();
-    const Eigen::Vector2d half = 0.5 * footprint.size - 2 * Eigen::Vector2d::Constant(footprint.sd);
+    const Eigen::Vector2d half =
+        0.5 * footprint.size - kSure * Eigen::Vector2d::Constant(footprint.sd);
     low = low.cwiseMin(centre - half);
     high = high.cwiseMax(centre + half);
     longest = std::max(longest, footprint.size.maxCoeff());

@@ -147,9 +147,11 @@ TEST(Factors, CuboidGradient) {
   for (const double error : {0.0, 1e-9, 1e-3, 0.8, 3.0}) {
     const Vector6d step = error / 2 * (Vector6d() << 0.2, -0.1, 1.9, 0.3, 1, -1).finished();
     const Cuboid measured{lidar.inverse() * truth.pose * core::se3_exp(step), {4, 2, 1.4}};
-    const CuboidFactor factor(measured, some_covariance<9>());
-    expect_gradient(factor, pose, cuboid_manifold,
-                    {pose_parameters(lidar), cuboid_parameters(truth)});
+    for (const double shorter_weight : {1.0, 0.25}) {
+      const CuboidFactor factor(measured, some_covariance<9>(), shorter_weight);
+      expect_gradient(factor, pose, cuboid_manifold,
+                      {pose_parameters(lidar), cuboid_parameters(truth)});
+    }
   }
 }
 
@@ -182,6 +184,21 @@ TEST(Factors, TrueValuesHaveNoError) {
   CylinderFactor(objects::transformed(lidar.inverse(), cylinder), some_covariance<6>())
       .Evaluate(with_cylinder, residuals.data(), nullptr);
   EXPECT_LT(residuals.head<6>().norm(), 1e-12);
+}
+
+TEST(Factors, ALongerObjectThanMeasuredCostsLessThanAShorterOne) {
+  const Cuboid measured{SE3::Identity(), {4.4, 1.8, 1.5}};
+  const auto cost = [&](double length) {
+    const auto x = pose_parameters(SE3::Identity());
+    const auto c = cuboid_parameters({SE3::Identity(), {length, 1.8, 1.5}});
+    const double* parameters[] = {x.data(), c.data()};
+    Vector9d residuals;
+    CuboidFactor(measured, Matrix9d::Identity(), 0.25)
+        .Evaluate(parameters, residuals.data(), nullptr);
+    return residuals.squaredNorm();
+  };
+  EXPECT_NEAR(cost(3.9), 0.25, 1e-9);
+  EXPECT_NEAR(cost(4.9), 0.25 / 16, 1e-9);
 }
 
 TEST(Factors, CostIsHalfTheSquaredMahalanobisDistance) {

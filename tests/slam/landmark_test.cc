@@ -99,8 +99,9 @@ TEST(Landmark, LongerEdgeIsNamedLengthAndKeepsItsFront) {
 
 TEST(Landmark, IsBelievedAfterSeveralWindowsOverSomeTime) {
   Feed feed;
-  EXPECT_FALSE(believed(feed(car(5, 0, 0), kVehicle), kTable, kConfig));
-  EXPECT_FALSE(believed(feed(car(5, 0, 0), kVehicle), kTable, kConfig));
+  for (int i = 1; i < kConfig.confirm_observations; ++i) {
+    EXPECT_FALSE(believed(feed(car(5, 0, 0), kVehicle), kTable, kConfig)) << i;
+  }
   EXPECT_TRUE(believed(feed(car(5, 0, 0), kVehicle), kTable, kConfig));
 }
 
