@@ -1,0 +1,128 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "active/targets.h"
+#include "active/tour.h"
+#include "active/viewpoint.h"
+#include "core/budget.h"
+#include "core/config.h"
+#include "core/time.h"
+
+/// Stage 6: where to look next — reads the object map (from `slam`), the occupancy block (from the
+/// collision checker) and the vehicle's pose at 1 Hz, makes the viewpoint to fly to (for `motion`
+/// and the mission).
+///
+/// Frames: prior map, object map, viewpoints and geofence are in `world`, the block is in `odom`.
+/// Method: the paper, "PAMS": a tour over the prior map's targets; what is done at each of them is
+/// the policy's. Cost: a few milliseconds a decision, a tour of 1,000 targets about a second.
+namespace saker::active {
+
+enum class PolicyName { visit };
+
+[[nodiscard]] inline std::vector<std::string> enum_names(PolicyName) { return {"visit"}; }
+
+/// The baseline: visits each target of the prior map.
+struct VisitConfig {
+  int sides = 2;
+  double separation_deg = 120;
+  double dwell_s = 3.0;
+  double oblique_worth_m = 10;
+  double unknown_worth_m = 5;
+  double switch_m = 5;
+  double patience_s = 15;
+  double progress_m = 0.5;
+  int most_refusals = 3;
+  bool return_home = true;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("sides", sides, {1, 4}, "",
+            "from which a target is seen; from two opposite corners all its four edges are");
+    v.field("separation_deg", separation_deg, {10, 180}, "deg",
+            "least angle between sides, at most 180 / (sides − 1): each finds room then");
+    v.field("dwell_s", dwell_s, {0, 60}, "s",
+            "in view from a side: five windows, after which SLAM believes in an object");
+    v.field("oblique_worth_m", oblique_worth_m, {0, 100}, "m",
+            "detour for an oblique instead of a straight view: it shows length and width at once");
+    v.field("unknown_worth_m", unknown_worth_m, {0, 100}, "m",
+            "detour for a viewpoint that is known to be free");
+    v.field("switch_m", switch_m, {0, 100}, "m",
+            "a viewpoint must be better by this to replace the one that is flown to");
+    v.field("patience_s", patience_s, {1, 600}, "s",
+            "without coming nearer or seeing a side, until a viewpoint is given up");
+    v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
+    v.field("most_refusals", most_refusals, {1, 50}, "",
+            "viewpoints given up in flight, until the target is");
+    v.field("return_home", return_home, "", "whether the tour ends where it began");
+  }
+};
+
+struct ActiveConfig {
+  PolicyName policy = PolicyName::visit;
+  TargetsConfig targets;
+  TourConfig tour;
+  FieldOfViewConfig view;
+  ViewpointConfig viewpoints;
+  VisitConfig visit_policy;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("policy", policy, "", "how viewpoints are chosen");
+    v.group("targets", targets, "what is to be mapped");
+    v.group("tour", tour, "in which order");
+    v.group("view", view, "the sensor's field of view");
+    v.group("viewpoints", viewpoints, "places to look from");
+    v.group("visit", visit_policy, "policy visit: every target, from several sides");
+  }
+};
+
+/// What a decision is made from. `map` and `grid` may be absent at first.
+struct ActiveInput {
+  Time stamp = 0;
+  SE3 T_world_body = SE3::Identity();
+  SE3 T_world_odom = SE3::Identity();
+  std::shared_ptr<const objects::ObjectMap> map;         ///< world
+  std::shared_ptr<const occupancy::OccupancyGrid> grid;  ///< odom
+};
+
+enum class ActiveStatus {
+  flying,    ///< fly to `goal`, and stay there until it changes
+  finished,  ///< no target is pending
+  invalid,   ///< a pose that is not finite, or a stamp that is not newer: nothing changed
+};
+
+/// A decision, with all that led to it.
+struct ActivePlan {
+  ActiveStatus status = ActiveStatus::invalid;
+  std::optional<Viewpoint> goal;  ///< while flying
+  std::vector<int> tour;          ///< ids of the pending targets in their order, the goal's first
+  double tour_length_m = 0;       ///< straight lines, with the way home
+  std::vector<Candidate> candidates;  ///< for the goal's target
+  int pending = 0, done = 0, visited = 0, unreachable = 0;
+};
+
+/// Chooses viewpoints. One object a mission; a function of the calls so far.
+class Policy {
+ public:
+  virtual ~Policy() = default;
+
+  /// At 1 Hz throughout the tour, also under way: what comes into view counts.
+  [[nodiscard]] virtual ActivePlan plan(const ActiveInput& input, const core::Budget& budget) = 0;
+
+  /// Motion planning found no way to this viewpoint: it is not offered again.
+  virtual void refuse(int viewpoint_id, const std::string& reason) = 0;
+
+  [[nodiscard]] virtual const std::vector<Target>& targets() const = 0;
+};
+
+/// Throws Error on an invalid configuration or prior map.
+[[nodiscard]] std::unique_ptr<Policy> make_policy(const ActiveConfig& config,
+                                                  const objects::ClassTable& table,
+                                                  const objects::ObjectMap& prior,
+                                                  InGeofence in_geofence);
+
+}  // namespace saker::active

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/config.h"
+#include "objects/object_map.h"
+
+/// What the tour is for: the prior map's objects of target classes, each with the mapped object
+/// that it turned out to be.
+namespace saker::active {
+
+struct TargetsConfig {
+  double gate_m = 4.0;
+  double height_gate_m = 3.0;
+  double prior_margin_m = 0.5;
+  int most_targets = 300;
+  std::vector<double> default_size_m = {4.5, 1.9, 1.6};
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("gate_m", gate_m, {0.1, 50}, "m",
+            "in x-y between prior and mapped place: three deviations of a prior of 1.3 m");
+    v.field("height_gate_m", height_gate_m, {0.1, 50}, "m", "the same in z: about a storey");
+    v.field("prior_margin_m", prior_margin_m, {0, 10}, "m",
+            "kept in view around a target that is not mapped yet, for its place is rough");
+    v.field("most_targets", most_targets, {1, 1000}, "",
+            "a prior map with more of them is refused: association and tour must fit into a cycle");
+    v.field("default_size_m", default_size_m, {0.1, 30}, "m",
+            "length, width, height of a target whose prior says none: a car");
+  }
+};
+
+enum class TargetStatus {
+  pending,      ///< to be visited
+  done,         ///< seen from enough sides, and mapped
+  visited,      ///< the same, but the map has no object there: the prior may be wrong
+  unreachable,  ///< seen from no side
+};
+
+[[nodiscard]] inline const char* to_string(TargetStatus status) {
+  constexpr const char* kNames[] = {"pending", "done", "visited", "unreachable"};
+  return kNames[static_cast<int>(status)];
+}
+
+struct Target {
+  int id = -1;  ///< of the prior map's object
+  objects::ClassId class_id = 0;
+  objects::Cuboid extent;  ///< world: the mapped object's, or else the prior's with its margin
+  Eigen::Vector3d prior_place = Eigen::Vector3d::Constant(NAN);  ///< world, m
+  int object_id = -1;  ///< the mapped object's; −1: none yet
+  TargetStatus status = TargetStatus::pending;
+  std::string reason;  ///< why it is visited with fewer sides, or unreachable
+
+  [[nodiscard]] bool mapped() const { return object_id >= 0; }
+  [[nodiscard]] Eigen::Vector3d place() const { return extent.pose.translation(); }
+};
+
+/// The prior's targets in the order of their ids. Objects of other classes are passed over.
+/// Throws Error on a place that is not finite, an id that occurs twice, or too many targets.
+class TargetList {
+ public:
+  TargetList(const TargetsConfig& config, const objects::ClassTable& table,
+             const objects::ObjectMap& prior);
+
+  /// Gives each target the mapped object of its class that it is: one to one, the most pairs in the
+  /// gate, of those the nearest. A target whose object has left the map has none again.
+  void associate(const objects::ObjectMap& map);
+
+  void close(int index, TargetStatus status, std::string reason);
+
+  [[nodiscard]] const std::vector<Target>& all() const { return targets_; }
+  [[nodiscard]] const Target& operator[](int index) const { return targets_[index]; }
+  [[nodiscard]] int size() const { return static_cast<int>(targets_.size()); }
+  [[nodiscard]] int count(TargetStatus status) const;
+
+ private:
+  [[nodiscard]] double distance(const Target& target, const objects::MapObject& object) const;
+  void attach(int index, const objects::MapObject* object);
+
+  TargetsConfig config_;
+  std::vector<Target> targets_;
+  std::vector<objects::Cuboid> prior_extent_;
+};
+
+}  // namespace saker::active

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/config.h"
+#include "core/se3.h"
+#include "objects/models.h"
+#include "occupancy/grid.h"
+
+/// Where to look from: the sensor's field of view, what hides a target, candidate viewpoints.
+///
+/// Frames: viewpoints and targets are in `world`, the occupancy block is in `odom`. The lidar is
+/// taken to be level and at the body's place, which `margin_deg` covers.
+namespace saker::active {
+
+/// Whether the vehicle may be there; `world`.
+using InGeofence = std::function<bool(const Eigen::Vector3d&)>;
+
+struct FieldOfViewConfig {
+  double lowest_deg = -22.5;
+  double highest_deg = 22.5;
+  double margin_deg = 2;
+  double nearest_m = 2;
+  double farthest_m = 16;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("lowest_deg", lowest_deg, {-89, 0}, "deg", "the lowest beam: OS1 (second generation)");
+    v.field("highest_deg", highest_deg, {0, 89}, "deg", "the highest beam");
+    v.field("margin_deg", margin_deg, {0, 20}, "deg",
+            "kept of it when a viewpoint is chosen: pitch, and the lidar's place on the body");
+    v.field("nearest_m", nearest_m, {0, 20}, "m", "in x-y to the target's nearest point");
+    v.field("farthest_m", farthest_m, {1, 100}, "m",
+            "in x-y to its centre: farther away a beam's spacing (0.7°) exceeds 0.2 m");
+  }
+};
+
+/// Whether the whole target is between the beams and in the range, from `eye`.
+/// Exact for an upright cuboid: the nearest and the farthest point of its footprint bound the
+/// elevations of its bottom and top.
+[[nodiscard]] bool in_field_of_view(const Eigen::Vector3d& eye, const objects::Cuboid& target,
+                                    const FieldOfViewConfig& config, double margin_deg);
+
+/// An occupancy block seen from `world`. Without a block everything is unknown.
+struct Surroundings {
+  const occupancy::OccupancyGrid* grid = nullptr;
+  SE3 T_odom_world = SE3::Identity();
+
+  [[nodiscard]] occupancy::Cell at(const Eigen::Vector3d& p_world) const {
+    return grid ? grid->at(T_odom_world * p_world) : occupancy::Cell::unknown;
+  }
+  /// Whether a cell's centre within `radius` is occupied.
+  [[nodiscard]] bool blocked(const Eigen::Vector3d& p_world, double radius) const;
+};
+
+/// Share of the target that no occupied cell hides, by rays to its vertical edges and its middle.
+/// Cells of the target itself (within `own_margin_m`) and unknown ones hide nothing.
+[[nodiscard]] double visible_share(const Eigen::Vector3d& eye, const objects::Cuboid& target,
+                                   const Surroundings& surroundings, double own_margin_m);
+
+/// A place to look from.
+struct Viewpoint {
+  int id = -1;         ///< target and slot: the same direction and ring have the same id
+  int target_id = -1;  ///< of the prior map's object
+  Eigen::Vector3d position = Eigen::Vector3d::Constant(NAN);  ///< world, m
+  double yaw = NAN;                                           ///< rad, towards the target
+  double bearing = NAN;  ///< rad, world: from the target to the viewpoint
+};
+
+/// Why a candidate is not flown to.
+enum class Refusal {
+  none,
+  out_of_view,       ///< the target is not wholly in the field of view from there
+  outside_geofence,  ///<
+  occupied,          ///< something is nearer than the clearance
+  hidden,            ///< too little of the target is visible
+  seen,              ///< too near to a side that was seen
+  motion,            ///< motion planning found no way, or the vehicle came no nearer
+};
+
+[[nodiscard]] inline const char* to_string(Refusal refusal) {
+  constexpr const char* kNames[] = {"none",   "out of view", "outside the geofence", "occupied",
+                                    "hidden", "seen",        "no way there"};
+  return kNames[static_cast<int>(refusal)];
+}
+
+struct Candidate {
+  Viewpoint viewpoint;
+  bool known_free = false;  ///< else it was never seen, and may be once the vehicle is nearer
+  double gain = 0;          ///< what it tells; its unit is the policy's
+  double cost_m = 0;        ///< flight that it takes
+  Refusal refusal = Refusal::none;
+};
+
+struct ViewpointConfig {
+  double height_m = 3.0;
+  int bearings = 24;
+  int rings = 3;
+  double ring_step_m = 1.5;
+  double clearance_m = 0.9;
+  double least_visible = 0.6;
+  double own_margin_m = 0.5;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("height_m", height_m, {0.3, 50}, "m",
+            "of the body above the ground under the target: over vehicles, under most crowns");
+    v.field("bearings", bearings, {4, 72}, "", "directions around the target");
+    v.field("rings", rings, {1, 10}, "", "distances, from the nearest that has it all in view");
+    v.field("ring_step_m", ring_step_m, {0.25, 10}, "m", "between them");
+    v.field("clearance_m", clearance_m, {0.1, 5}, "m",
+            "to what is occupied: more than motion planning asks for, which must get there");
+    v.field("least_visible", least_visible, {0, 1}, "", "share of the target that must be visible");
+    v.field("own_margin_m", own_margin_m, {0, 3}, "m",
+            "cells so near to the target are its own: its error and a cell's diagonal");
+  }
+};
+
+/// Rings of candidates around a target, each with the first refusal that applies; ids from
+/// `first_id` on, bearings · rings of them.
+[[nodiscard]] std::vector<Candidate> sample_viewpoints(const objects::Cuboid& target, int first_id,
+                                                       const ViewpointConfig& config,
+                                                       const FieldOfViewConfig& view,
+                                                       const Surroundings& surroundings,
+                                                       const InGeofence& in_geofence);
+
+/// The first of the refusals that hold whatever was seen so far.
+[[nodiscard]] Refusal refusal_of(const Viewpoint& viewpoint, const objects::Cuboid& target,
+                                 const ViewpointConfig& config, const FieldOfViewConfig& view,
+                                 const Surroundings& surroundings, const InGeofence& in_geofence);
+
+}  // namespace saker::active
