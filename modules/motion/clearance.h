@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "core/config.h"
+
+namespace saker::motion {
+
+/// How far from everything the vehicle stays, and where what was never seen counts as free. The
+/// planner and the collision checker's verdict share it.
+struct ClearanceConfig {
+  double robot_radius_m = 0.4;
+  double margin_m = 0.25;
+  double planning_slack_m = 0.1;
+  double takeoff_radius_m = 2.5;
+  double takeoff_height_m = 8;
+  double vehicle_ball_m = 1.5;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("robot_radius_m", robot_radius_m, {0.05, 2}, "m",
+            "ball around the body's centre that holds frame and propellers");
+    v.field("margin_m", margin_m, {0, 2}, "m",
+            "kept from what is occupied or unknown: tracking error, odometry, half a cell");
+    v.field("planning_slack_m", planning_slack_m, {0, 1}, "m",
+            "more than that when a path is planned, so that noise in the map does not stop it");
+    v.field("takeoff_radius_m", takeoff_radius_m, {0, 10}, "m",
+            "of the upright column over the take-off point in which the unknown is free: from its "
+            "edge on the sensor's vertical field of view covers the body");
+    v.field("takeoff_height_m", takeoff_height_m, {0, 50}, "m", "of that column");
+    v.field("vehicle_ball_m", vehicle_ball_m, {0, 10}, "m",
+            "around the vehicle the unknown is free: it is there, and sees nothing so near");
+  }
+
+  [[nodiscard]] double least_m() const { return robot_radius_m + margin_m; }
+};
+
+/// Where what was never seen counts as free, all the same: places that the vehicle stands for.
+struct Exemption {
+  Eigen::Vector3d takeoff = Eigen::Vector3d::Constant(NAN);  ///< foot of the column; NaN: none
+  Eigen::Vector3d vehicle = Eigen::Vector3d::Constant(NAN);  ///< centre of the ball; NaN: none
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p, const ClearanceConfig& config) const {
+    const Eigen::Vector3d from_foot = p - takeoff;
+    const bool in_column = from_foot.head<2>().norm() <= config.takeoff_radius_m &&
+                           from_foot.z() >= 0 && from_foot.z() <= config.takeoff_height_m;
+    return in_column || (p - vehicle).norm() <= config.vehicle_ball_m;
+  }
+};
+
+}  // namespace saker::motion
