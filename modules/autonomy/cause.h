@@ -1,0 +1,51 @@
+#pragma once
+
+/// Why something happened: the codes that MISSION and HEALTH carry beside a text.
+namespace saker::autonomy {
+
+enum class Cause {
+  none,
+  // What is missing or has gone stale; before the flight it refuses, in flight it holds or lands.
+  vehicle_silent,    ///< no state from the flight controller
+  lidar_silent,      ///< no whole scan
+  odometry_stale,    ///< no scan could be registered lately
+  odometry_lost,     ///< for so long that the pose is a guess
+  checker_silent,    ///< no verdict
+  occupancy_stale,   ///< no occupancy block
+  mapping_stale,     ///< no map from SLAM
+  planning_stale,    ///< no answer from planning
+  outside_geofence,  ///< take-off place or vehicle
+  battery_low,       ///< enough for the way back
+  battery_empty,     ///< enough to land
+  no_targets,        ///< no prior map, or no target in it
+  collision,         ///< the flight controller felt one
+  vehicle_descends,  ///< the flight controller trusts no odometry and comes down by itself
+  off_course,        ///< the vehicle does not follow its setpoints
+  // Waits that ended badly.
+  preflight_deadline,
+  command_refused,
+  command_deadline,
+  takeoff_deadline,
+  tour_deadline,
+  return_deadline,
+  landing_deadline,
+  hold_deadline,
+  too_many_holds,
+  // Planning.
+  nothing_reachable,
+  home_unreachable,
+  // As it should be.
+  ready,
+  armed,
+  took_off,
+  tour_complete,
+  home_reached,
+  landed,
+  recovered,
+  ordered,  ///< by the operator, or a signal
+};
+
+/// One word, as MISSION shows it.
+[[nodiscard]] const char* to_string(Cause cause);
+
+}  // namespace saker::autonomy

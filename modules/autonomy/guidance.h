@@ -1,0 +1,115 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/config.h"
+#include "core/vehicle.h"
+#include "motion/trajectory.h"
+
+/// Guidance, 50 Hz — reads the committed trajectory and the verdict on it, makes setpoints (for the
+/// flight controller). Everything is in `odom`.
+///
+/// It alone owns the committed trajectory: planning proposes, guidance splices the proposal to what
+/// is being flown and gives it its number. It obeys the verdict: what is not clear is flown up to
+/// the braking distance before `clear_until`, and silence is a stop. A stop slows down along the
+/// trajectory, so that it stays where it was checked: the trajectory's own time runs slower at a
+/// constant rate until it stands. Reads no clock; cost: microseconds, but for a splice or a stop.
+namespace saker::autonomy {
+
+struct GuidanceConfig {
+  double setpoint_expiry_s = 0.3;
+  double verdict_silence_s = 0.5;
+  double stop_acceleration_mps2 = 2.0;
+  double stop_margin_s = 0.15;
+  double step_s = 0.05;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("setpoint_expiry_s", setpoint_expiry_s, {0.04, 2}, "s",
+            "after which a setpoint is no longer obeyed: fifteen missed ones");
+    v.field("verdict_silence_s", verdict_silence_s, {0.15, 5}, "s",
+            "without a verdict, or without one on a new trajectory, then stop");
+    v.field("stop_acceleration_mps2", stop_acceleration_mps2, {0.1, 20}, "m/s²",
+            "along the trajectory");
+    v.field("stop_margin_s", stop_margin_s, {0, 2}, "s",
+            "at rest so long before the time to which the trajectory is clear");
+    v.field("step_s", step_s, {0.01, 0.5}, "s", "between the states of a stop");
+  }
+};
+
+enum class GuidanceOrder {
+  silent,  ///< no setpoints: the flight controller is on its own (ground, landing, lost)
+  hold,    ///< stop, stay
+  follow   ///< fly what is committed
+};
+
+[[nodiscard]] const char* to_string(GuidanceOrder order);
+
+/// A trajectory that planning would like to be flown.
+struct Proposal {
+  motion::Trajectory trajectory;  ///< from `start` on; its id is not used
+  std::int64_t from_id = 0;       ///< the committed trajectory at whose state at `start` it begins
+};
+
+enum class CommitStatus {
+  committed,
+  late,     ///< its start has passed
+  other,    ///< what it begins on is no longer flown
+  refused,  ///< guidance does not follow now
+};
+
+[[nodiscard]] const char* to_string(CommitStatus status);
+
+class Guidance {
+ public:
+  explicit Guidance(const GuidanceConfig& config);  ///< throws Error on an invalid value
+
+  /// Begins anew: stay at the pose. For the end of the take-off, and where the vehicle could not
+  /// follow.
+  void anchor(Time now, const VehicleOdometry& odometry);
+
+  /// Commits a proposal: from its start on it is flown.
+  CommitStatus commit(const Proposal& proposal, Time now);
+
+  /// The newest verdict decides; nothing while silent.
+  [[nodiscard]] std::optional<Setpoint> update(Time now, GuidanceOrder order,
+                                               const std::optional<motion::Verdict>& verdict);
+
+  /// What is flown now; empty before the first anchor. A new object after every change.
+  [[nodiscard]] const std::shared_ptr<const motion::Trajectory>& committed() const {
+    return committed_;
+  }
+  [[nodiscard]] bool stopping() const { return stopping_; }  ///< nothing new was committed since
+  [[nodiscard]] int stops() const { return stops_; }
+  [[nodiscard]] const std::string& stop_reason() const { return stop_reason_; }
+
+ private:
+  void replace(motion::Trajectory trajectory, Time now);
+  void stop(Time now, std::string reason);
+  [[nodiscard]] std::optional<std::string> reason_to_stop(
+      Time now, const std::optional<motion::Verdict>& verdict) const;
+
+  GuidanceConfig config_;
+  std::shared_ptr<const motion::Trajectory> committed_;
+  std::int64_t last_id_ = 0;
+  Time committed_at_ = 0;
+  GuidanceOrder order_ = GuidanceOrder::silent;
+  bool stopping_ = false;
+  int stops_ = 0;
+  std::string stop_reason_;
+};
+
+/// Stays at a pose: one state, at rest.
+[[nodiscard]] motion::Trajectory resting(Time start, const motion::MotionState& state);
+
+/// `first` up to the start of `second`, then `second`, on the second's steps.
+[[nodiscard]] motion::Trajectory spliced(const motion::Trajectory& first,
+                                         const motion::Trajectory& second, Time now);
+
+/// The trajectory from `now` on, slowed down at `deceleration` along itself until it stands.
+[[nodiscard]] motion::Trajectory slowed_down(const motion::Trajectory& trajectory, Time now,
+                                             double deceleration, double step_s);
+
+}  // namespace saker::autonomy

@@ -1,0 +1,261 @@
+#include "autonomy/mission.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace saker::autonomy {
+
+const char* to_string(MissionPhase phase) {
+  constexpr const char* kNames[] = {"preflight", "arming", "takeoff", "tour",
+                                    "return",    "hold",   "landing", "done"};
+  return kNames[static_cast<int>(phase)];
+}
+
+Mission::Mission(const MissionConfig& config)
+    : config_(core::checked(config, "mission")), commands_(config_.command) {}
+
+bool Mission::flying() const {
+  return phase_ > MissionPhase::arming && phase_ != MissionPhase::done;
+}
+
+bool Mission::overdue(double seconds) const { return now_ - begun_ > from_seconds(seconds); }
+
+void Mission::say(Cause cause, std::string text) {
+  out_.events.push_back({now_, phase_, phase_, cause, std::move(text)});
+}
+
+void Mission::go(MissionPhase phase, Cause cause, std::string text) {
+  out_.events.push_back({now_, phase_, phase, cause, std::move(text)});
+  phase_ = phase;
+  begun_ = now_;
+}
+
+/// Not what was planned: the first such cause is the outcome.
+void Mission::fail(Cause cause) {
+  if (outcome_ == Cause::landed) outcome_ = cause;
+}
+
+void Mission::land(Cause cause, std::string text) {
+  go(MissionPhase::landing, cause, std::move(text));
+  if (!silent_) commands_.issue(CommandKind::land, NAN, now_);
+}
+
+Mission::Output Mission::step(const MissionInput& input) {
+  out_ = {};
+  now_ = input.now;
+  if (begun_ == 0) begun_ = now_;
+  out_.command = commands_.step(now_, input.acks);
+  if (!flying() || !obey_safety(input)) {
+    switch (phase_) {
+      case MissionPhase::preflight:
+        preflight(input);
+        break;
+      case MissionPhase::arming:
+        arming(input);
+        break;
+      case MissionPhase::takeoff:
+        takeoff(input);
+        break;
+      case MissionPhase::tour:
+        tour(input);
+        break;
+      case MissionPhase::return_home:
+        return_home(input);
+        break;
+      case MissionPhase::hold:
+        hold(input);
+        break;
+      case MissionPhase::landing:
+        landing(input);
+        break;
+      case MissionPhase::done:
+        break;
+    }
+  }
+  if (!out_.command) out_.command = commands_.step(now_, {});  // one issued just now
+  out_.orders = orders();
+  return std::exchange(out_, {});
+}
+
+MissionOrders Mission::orders() const {
+  switch (phase_) {
+    case MissionPhase::tour:
+      return {GuidanceOrder::follow, PlanningOrder::tour};
+    case MissionPhase::return_home:
+      return {GuidanceOrder::follow, PlanningOrder::home};
+    case MissionPhase::hold:
+      return {GuidanceOrder::hold, PlanningOrder::none};
+    default:
+      return {};
+  }
+}
+
+void Mission::preflight(const MissionInput& input) {
+  std::string faults;
+  for (const Finding& finding : input.findings) {
+    faults +=
+        fmt::format("{}{}: {}", faults.empty() ? "" : "; ", to_string(finding.cause), finding.text);
+  }
+  const Cause first = input.findings.empty() ? Cause::ready : input.findings.front().cause;
+  if (first != Cause::ready) clear_since_ = 0;
+  if (first == Cause::ready && clear_since_ == 0) clear_since_ = now_;
+  if (first != fault_ || begun_ == now_) say(first, faults.empty() ? "nothing is missing" : faults);
+  fault_ = first;
+
+  if (input.land_ordered) {
+    fail(Cause::ordered);
+    go(MissionPhase::done, Cause::ordered, "ended before take-off");
+  } else if (clear_since_ != 0 && now_ - clear_since_ >= from_seconds(config_.settle_s)) {
+    go(MissionPhase::arming, Cause::ready, "all is there");
+    commands_.issue(CommandKind::arm, NAN, now_);
+  } else if (overdue(config_.preflight_s)) {
+    fail(Cause::preflight_deadline);
+    go(MissionPhase::done, Cause::preflight_deadline, "no take-off: " + faults);
+  }
+}
+
+/// A command that failed ends the wait for what it should have brought about.
+std::optional<Cause> Mission::failed_command() const {
+  if (commands_.progress() == CommandProgress::refused) return Cause::command_refused;
+  if (commands_.progress() == CommandProgress::expired) return Cause::command_deadline;
+  return std::nullopt;
+}
+
+std::string Mission::command_text() const {
+  if (commands_.progress() == CommandProgress::expired) {
+    return fmt::format("{}: no answer for {:g} s", to_string(commands_.kind()),
+                       config_.command.deadline_s);
+  }
+  return fmt::format("{}: {}", to_string(commands_.kind()), commands_.reason());
+}
+
+void Mission::arming(const MissionInput& input) {
+  if (const auto cause = failed_command()) {
+    fail(*cause);
+    go(MissionPhase::done, *cause, command_text());
+  } else if (commands_.progress() == CommandProgress::accepted && input.vehicle.armed) {
+    go(MissionPhase::takeoff, Cause::armed, fmt::format("to {:g} m", config_.height_m));
+    takeoff_floor_m_ = input.odometry.T_odom_body.translation().z();
+    commands_.issue(CommandKind::takeoff, config_.height_m, now_);
+  } else if (overdue(config_.takeoff_s)) {
+    fail(Cause::command_deadline);
+    go(MissionPhase::done, Cause::command_deadline, "arm: accepted, but it did not arm");
+  }
+}
+
+void Mission::takeoff(const MissionInput& input) {
+  const double height = input.odometry.T_odom_body.translation().z() - takeoff_floor_m_;
+  if (const auto cause = failed_command()) {
+    fail(*cause);
+    land(*cause, command_text());
+  } else if (height > config_.height_m - config_.height_tolerance_m) {
+    go(MissionPhase::tour, Cause::took_off, fmt::format("at {:.1f} m", height));
+    out_.anchor = true;
+  } else if (overdue(config_.takeoff_s)) {
+    fail(Cause::takeoff_deadline);
+    land(Cause::takeoff_deadline,
+         fmt::format("at {:.1f} m after {:g} s", height, config_.takeoff_s));
+  }
+}
+
+void Mission::tour(const MissionInput& input) {
+  const PlanningReport& plan = input.planning;
+  if (tour_begun_ == 0) tour_begun_ = now_;
+  if (plan.order == PlanningOrder::tour && plan.status == PlanningStatus::tour_complete) {
+    go(MissionPhase::return_home, Cause::tour_complete, plan.text);
+  } else if (plan.order == PlanningOrder::tour &&
+             plan.status == PlanningStatus::nothing_reachable) {
+    fail(Cause::nothing_reachable);
+    go(MissionPhase::return_home, Cause::nothing_reachable, plan.text);
+  } else if (now_ - tour_begun_ > from_seconds(config_.tour_s)) {
+    fail(Cause::tour_deadline);
+    go(MissionPhase::return_home, Cause::tour_deadline,
+       fmt::format("{} of {} targets after {:g} s", plan.visited, plan.targets, config_.tour_s));
+  }
+}
+
+void Mission::return_home(const MissionInput& input) {
+  const PlanningReport& plan = input.planning;
+  if (return_begun_ == 0) return_begun_ = now_;
+  if (plan.order == PlanningOrder::home && plan.status == PlanningStatus::home_reached) {
+    land(Cause::home_reached, plan.text);
+  } else if (plan.order == PlanningOrder::home && plan.status == PlanningStatus::home_unreachable) {
+    fail(Cause::home_unreachable);
+    land(Cause::home_unreachable, "lands here: " + plan.text);
+  } else if (now_ - return_begun_ > from_seconds(config_.return_s)) {
+    fail(Cause::return_deadline);
+    land(Cause::return_deadline, fmt::format("not home after {:g} s", config_.return_s));
+  }
+}
+
+/// Safety says when it ends.
+void Mission::hold(const MissionInput& input) {
+  if (input.safety.action == SafetyAction::hold) return;
+  const bool home = input.safety.action == SafetyAction::return_home;
+  if (home) fail(input.safety.cause);
+  go(home ? MissionPhase::return_home : interrupted_, home ? input.safety.cause : Cause::recovered,
+     home ? input.safety.text : "goes on");
+  out_.anchor = hold_cause_ == Cause::off_course;
+}
+
+/// True when safety, or the operator, changed the phase.
+bool Mission::obey_safety(const MissionInput& input) {
+  const SafetyDecision& safety = input.safety;
+  if (safety.action == SafetyAction::silence && !silent_) {
+    silent_ = true;
+    fail(safety.cause);
+    if (phase_ == MissionPhase::landing) say(safety.cause, safety.text + "; no more setpoints");
+  }
+  if (phase_ == MissionPhase::landing) return false;
+  if (safety.action >= SafetyAction::land) {
+    fail(safety.cause);
+    land(safety.cause, safety.text);
+  } else if (input.land_ordered) {
+    fail(Cause::ordered);
+    land(Cause::ordered, "ordered to land");
+  } else if (safety.action == SafetyAction::hold && phase_ != MissionPhase::hold) {
+    begin_hold(safety);
+  } else if (safety.action == SafetyAction::return_home && phase_ == MissionPhase::tour) {
+    fail(safety.cause);
+    go(MissionPhase::return_home, safety.cause, safety.text);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void Mission::begin_hold(const SafetyDecision& safety) {
+  if (phase_ == MissionPhase::takeoff) {  // the flight controller climbs: there is nothing to hold
+    fail(safety.cause);
+    land(safety.cause, safety.text);
+  } else if (++holds_ > config_.most_holds) {
+    fail(Cause::too_many_holds);
+    land(Cause::too_many_holds, fmt::format("{} holds; {}", holds_, safety.text));
+  } else {
+    interrupted_ = phase_;
+    hold_cause_ = safety.cause;
+    go(MissionPhase::hold, safety.cause, safety.text);
+  }
+}
+
+void Mission::landing(const MissionInput& input) {
+  const bool down = input.vehicle.stamp != 0 && !input.vehicle.armed;
+  if (down) {
+    go(MissionPhase::done, Cause::landed, fmt::format("outcome: {}", to_string(outcome_)));
+  } else if (overdue(config_.landing_s)) {
+    fail(Cause::landing_deadline);
+    say(Cause::landing_deadline,
+        fmt::format("still up after {:g} s; told to land again", config_.landing_s));
+    begun_ = now_;
+    commands_.issue(CommandKind::land, NAN, now_);
+  } else if (failed_command() && !silent_ && !land_refusal_said_) {
+    land_refusal_said_ = true;
+    fail(*failed_command());
+    say(*failed_command(), command_text() + "; without setpoints it lands by itself");
+  }
+}
+
+}  // namespace saker::autonomy

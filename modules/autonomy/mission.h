@@ -1,0 +1,146 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/cause.h"
+#include "autonomy/command_sender.h"
+#include "autonomy/guidance.h"
+#include "autonomy/planning_report.h"
+#include "autonomy/safety.h"
+#include "core/config.h"
+#include "core/vehicle.h"
+
+/// The mission's state machine, 50 Hz — reads what the other stages say (safety, planning, the
+/// vehicle, acknowledgements), makes orders to guidance and planning, commands to the vehicle and
+/// an event with its cause at every transition.
+///
+///     preflight ─▶ arming ─▶ takeoff ─▶ tour ─▶ return ─▶ landing ─▶ done
+///                                        └──── hold ────┘      ▲
+///                                               └──────────────┘
+///
+/// Every wait has a deadline, and what happens then only goes to the right: a mission ends. A hold
+/// goes back to what it interrupted, at most `most_holds` times. Landing alone has no way out but
+/// the ground: at each deadline the command is given again, and said so. Reads no clock.
+namespace saker::autonomy {
+
+enum class MissionPhase { preflight, arming, takeoff, tour, return_home, hold, landing, done };
+
+[[nodiscard]] const char* to_string(MissionPhase phase);
+
+struct MissionConfig {
+  double height_m = 3.0;
+  double height_tolerance_m = 0.4;
+  double settle_s = 2.0;
+  double preflight_s = 30;
+  double takeoff_s = 20;
+  double tour_s = 1500;
+  double return_s = 240;
+  double landing_s = 60;
+  int most_holds = 10;
+  CommandConfig command;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("height_m", height_m, {1, 60}, "m", "of the take-off, above where it stands");
+    v.field("height_tolerance_m", height_tolerance_m, {0.05, 5}, "m", "of the take-off");
+    v.field("settle_s", settle_s, {0, 60}, "s", "without a fault before arming");
+    v.field("preflight_s", preflight_s, {1, 3600}, "s", "for all that is needed to be there");
+    v.field("takeoff_s", takeoff_s, {2, 300}, "s", "to reach the height; then land");
+    v.field("tour_s", tour_s, {1, 86400}, "s", "for all targets; then return");
+    v.field("return_s", return_s, {1, 3600}, "s", "for the way home; then land where it is");
+    v.field("landing_s", landing_s, {5, 600}, "s", "to touch down; then the command is repeated");
+    v.field("most_holds", most_holds, {0, 1000}, "", "in one mission; the next one lands");
+    v.group("command", command, "commands to the flight controller");
+  }
+};
+
+struct MissionEvent {
+  Time stamp = 0;
+  MissionPhase from = MissionPhase::preflight;
+  MissionPhase to = MissionPhase::preflight;  ///< the same as `from`: something to be said
+  Cause cause = Cause::none;
+  std::string text;
+};
+
+struct MissionInput {
+  Time now = 0;
+  VehicleState vehicle;
+  VehicleOdometry odometry;
+  std::vector<CommandAck> acks;   ///< since the last step
+  std::vector<Finding> findings;  ///< of safety, on the ground
+  SafetyDecision safety;          ///< in flight
+  PlanningReport planning;        ///< the newest
+  bool land_ordered = false;      ///< by the operator, or a signal
+};
+
+/// What holds from one step to the next.
+struct MissionOrders {
+  GuidanceOrder guidance = GuidanceOrder::silent;
+  PlanningOrder planning = PlanningOrder::none;
+
+  bool operator==(const MissionOrders&) const = default;
+};
+
+class Mission {
+ public:
+  explicit Mission(const MissionConfig& config);  ///< throws Error on an invalid value
+
+  struct Output {
+    MissionOrders orders;
+    std::optional<Command> command;  ///< to be sent now
+    bool anchor = false;             ///< guidance is to begin here
+    std::vector<MissionEvent> events;
+  };
+  [[nodiscard]] Output step(const MissionInput& input);
+
+  [[nodiscard]] MissionPhase phase() const { return phase_; }
+  [[nodiscard]] bool flying() const;
+  [[nodiscard]] bool done() const { return phase_ == MissionPhase::done; }
+  /// Whether it went as it should: all targets that can be reached, home, landed there.
+  [[nodiscard]] bool succeeded() const { return done() && outcome_ == Cause::landed; }
+  [[nodiscard]] Cause outcome() const { return outcome_; }  ///< the first cause that ended it early
+
+ private:
+  void preflight(const MissionInput& input);
+  void arming(const MissionInput& input);
+  void takeoff(const MissionInput& input);
+  void tour(const MissionInput& input);
+  void return_home(const MissionInput& input);
+  void hold(const MissionInput& input);
+  void landing(const MissionInput& input);
+  [[nodiscard]] bool obey_safety(const MissionInput& input);
+
+  void begin_hold(const SafetyDecision& safety);
+  [[nodiscard]] std::optional<Cause> failed_command() const;
+  [[nodiscard]] std::string command_text() const;
+
+  void fail(Cause cause);
+  void go(MissionPhase phase, Cause cause, std::string text);
+  void land(Cause cause, std::string text);
+  void say(Cause cause, std::string text);
+  [[nodiscard]] bool overdue(double seconds) const;
+  [[nodiscard]] MissionOrders orders() const;
+
+  MissionConfig config_;
+  CommandSender commands_;
+  MissionPhase phase_ = MissionPhase::preflight;
+  MissionPhase interrupted_ = MissionPhase::tour;  // by the hold
+  Cause outcome_ = Cause::landed;
+  Time now_ = 0;
+  Time begun_ = 0;             // the phase
+  Time clear_since_ = 0;       // preflight; 0: a fault is there
+  Cause fault_ = Cause::none;  // preflight: the last one said
+  double takeoff_floor_m_ = NAN;
+  Time tour_begun_ = 0;  // the first time: a hold does not begin it anew
+  Time return_begun_ = 0;
+  Cause hold_cause_ = Cause::none;
+  int holds_ = 0;
+  bool silent_ = false;  // odometry is lost
+  bool land_refusal_said_ = false;
+  Output out_;
+};
+
+}  // namespace saker::autonomy

@@ -1,0 +1,163 @@
+#include "autonomy/planning.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace saker::autonomy {
+namespace {
+
+const Eigen::Vector3d kTakeoffFoot(0, 0, 0);  // `odom` begins there
+
+double turn_between(double a, double b) {
+  return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
+}
+
+/// Where what is committed ends is where it is going, and nothing is in its way.
+bool clear(const PlanningInput& input) {
+  return input.verdict && input.verdict->trajectory_id == input.committed->id ? input.verdict->clear
+                                                                              : true;
+}
+
+}  // namespace
+
+Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& active,
+                   const motion::MotionConfig& motion, const objects::ClassTable& table,
+                   const objects::ObjectMap& prior, double home_height_m)
+    : config_(core::checked(config, "planning")),
+      planner_(motion),
+      policy_(active::make_policy(
+          active, table, prior,
+          [fence = planner_.geofence()](const Eigen::Vector3d& p) { return fence.contains(p); })),
+      home_(0, 0, home_height_m) {}
+
+Planning::Output Planning::step(const PlanningInput& input, const core::Budget& budget) {
+  Output output;
+  output.report.stamp = input.now;
+  output.report.order = input.order;
+  if (input.order != last_order_) {
+    refusals_ = 0;
+    goal_id_ = -1;
+  }
+  last_order_ = input.order;
+  if (input.order == PlanningOrder::none || input.committed == nullptr) return output;
+  if (input.order == PlanningOrder::tour) {
+    tour(input, budget, output);
+  } else {
+    home(input, budget, output);
+  }
+  output.report.refusals = refusals_;
+  return output;
+}
+
+void Planning::count_targets(const active::ActivePlan& plan, PlanningReport& report) const {
+  report.targets = static_cast<int>(policy_->targets().size());
+  report.visited = plan.done + plan.visited;
+  report.unreachable = plan.unreachable;
+  if (plan.goal) report.target = plan.goal->target_id;
+}
+
+void Planning::tour(const PlanningInput& input, const core::Budget& budget, Output& output) {
+  active::ActiveInput seen;
+  seen.stamp = input.now;
+  if (input.map) {
+    seen.T_world_odom = input.map->T_world_odom;
+    seen.map = std::shared_ptr<const objects::ObjectMap>(input.map, &input.map->map);
+  }
+  seen.T_world_body = seen.T_world_odom * input.odometry.T_odom_body;
+  seen.grid = input.grid;
+  output.plan = policy_->plan(seen, budget);
+  const active::ActivePlan& plan = output.plan;
+  PlanningReport& report = output.report;
+  count_targets(plan, report);
+  if (plan.status == active::ActiveStatus::finished) {
+    report.status =
+        report.visited > 0 ? PlanningStatus::tour_complete : PlanningStatus::nothing_reachable;
+    report.text = fmt::format("{} of {} targets visited, {} unreachable", report.visited,
+                              report.targets, report.unreachable);
+    return;
+  }
+  if (plan.status == active::ActiveStatus::invalid || !plan.goal) {
+    return refused(report, "no viewpoint: the pose is not usable");
+  }
+  if (plan.goal->id != goal_id_) refusals_ = 0;
+  goal_id_ = plan.goal->id;
+
+  const SE3 T_odom_world = seen.T_world_odom.inverse();
+  const Goal goal{T_odom_world * plan.goal->position,
+                  plan.goal->yaw + core::yaw(T_odom_world.linear())};
+  if (way_to(goal, input, budget, output) != Way::refused) return;
+  if (refusals_ < config_.most_refusals) return;
+  policy_->refuse(plan.goal->id, report.text);
+  report.status = PlanningStatus::gave_up;
+  report.text = fmt::format("viewpoint {} of target {} given up: {}", plan.goal->id,
+                            plan.goal->target_id, report.text);
+  refusals_ = 0;
+}
+
+void Planning::home(const PlanningInput& input, const core::Budget& budget, Output& output) {
+  const SE3 T_odom_world = input.map ? input.map->T_world_odom.inverse() : SE3::Identity();
+  const Goal goal{T_odom_world * home_, std::nullopt};
+  PlanningReport& report = output.report;
+  Way way = way_to(goal, input, budget, output);
+  const bool stands = input.now >= input.committed->end();
+  const double away = (input.odometry.T_odom_body.translation() - goal.position).norm();
+  if (stands && (way == Way::there || way == Way::as_near_as_it_gets)) {
+    if (away <= config_.home_tolerance_m) {
+      report.status = PlanningStatus::home_reached;
+      report.text = fmt::format("{:.1f} m from it", away);
+      return;
+    }
+    refused(report, fmt::format("comes no nearer to home than {:.1f} m", away));
+    way = Way::refused;
+  }
+  if (way == Way::refused && refusals_ >= config_.most_refusals) {
+    report.status = PlanningStatus::home_unreachable;
+  }
+}
+
+bool Planning::leads_to(const motion::Trajectory& trajectory, const Goal& goal) const {
+  const motion::MotionState& end = trajectory.states.back();
+  const double tolerance = config_.yaw_tolerance_deg * std::numbers::pi / 180;
+  return (end.position - goal.position).norm() <= config_.goal_tolerance_m &&
+         (!goal.yaw || turn_between(end.yaw, *goal.yaw) <= tolerance);
+}
+
+Planning::Way Planning::way_to(const Goal& goal, const PlanningInput& input,
+                               const core::Budget& budget, Output& output) {
+  const motion::Trajectory& committed = *input.committed;
+  output.report.status = PlanningStatus::flying;
+  if (leads_to(committed, goal) && clear(input)) {
+    refusals_ = 0;
+    return Way::there;
+  }
+  motion::PlanRequest request;
+  request.start_time = input.now + from_seconds(config_.horizon_s);
+  request.start = committed.sample(request.start_time);
+  request.goal = goal.position;
+  request.goal_yaw = goal.yaw;
+  request.grid = input.grid;
+  request.takeoff = kTakeoffFoot;
+  request.seed = ++searches_;
+  motion::PlanResult result = planner_.plan(request, budget);
+  if (result.status != motion::PlanStatus::ok) {
+    refused(output.report, fmt::format("{}: {}", to_string(result.status), result.reason));
+    return Way::refused;
+  }
+  refusals_ = 0;
+  const motion::MotionState& end = result.trajectory.states.back();
+  const Goal found{end.position, goal.yaw ? std::optional(end.yaw) : std::nullopt};
+  if (leads_to(committed, found) && clear(input)) return Way::as_near_as_it_gets;
+  output.proposal = Proposal{std::move(result.trajectory), committed.id};
+  return Way::proposed;
+}
+
+void Planning::refused(PlanningReport& report, std::string text) {
+  ++refusals_;
+  report.status = PlanningStatus::refused;
+  report.text = std::move(text);
+}
+
+}  // namespace saker::autonomy

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/time.h"
+
+namespace saker::autonomy {
+
+/// What the mission asks planning for.
+enum class PlanningOrder {
+  none,  ///< nothing: on the ground, hold, landing
+  tour,  ///< to the next viewpoint of the policy
+  home   ///< to above the place of take-off
+};
+
+[[nodiscard]] inline const char* to_string(PlanningOrder order) {
+  constexpr const char* kNames[] = {"none", "tour", "home"};
+  return kNames[static_cast<int>(order)];
+}
+
+enum class PlanningStatus {
+  idle,               ///< nothing was asked for
+  flying,             ///< what is committed leads to the goal, or a proposal was made
+  refused,            ///< no way this time; `text` says why
+  gave_up,            ///< on one goal after too many refusals; there are others
+  tour_complete,      ///< no target is left: all visited, or some unreachable
+  nothing_reachable,  ///< no target is left, and none was visited
+  home_reached,
+  home_unreachable,  ///< too many refusals on the way home
+};
+
+[[nodiscard]] inline const char* to_string(PlanningStatus status) {
+  constexpr const char* kNames[] = {"idle",         "flying",          "refused",
+                                    "gave up",      "tour complete",   "nothing reachable",
+                                    "home reached", "home unreachable"};
+  return kNames[static_cast<int>(status)];
+}
+
+/// What became of one step of planning, for the mission and PLAN.
+struct PlanningReport {
+  Time stamp = 0;  ///< 0: there has been none
+  PlanningOrder order = PlanningOrder::none;
+  PlanningStatus status = PlanningStatus::idle;
+  std::string text;
+  int target = -1;  ///< id of the target under way; −1: none
+  int targets = 0;  ///< in all
+  int visited = 0;
+  int unreachable = 0;
+  int refusals = 0;  ///< in a row, at this goal
+};
+
+}  // namespace saker::autonomy

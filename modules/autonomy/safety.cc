@@ -1,0 +1,129 @@
+#include "autonomy/safety.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace saker::autonomy {
+namespace {
+
+constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
+
+/// "no scan for 0.7 s" or "no scan yet".
+std::string silence_text(const char* what, Time last, Time now, double limit_s) {
+  if (last == 0) return fmt::format("no {} yet", what);
+  return fmt::format("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
+                     limit_s);
+}
+
+double age_s(Time last, Time now) { return last == 0 ? kNeverSaidAfter_s : to_seconds(now - last); }
+
+}  // namespace
+
+const char* to_string(SafetyAction action) {
+  constexpr const char* kNames[] = {"none", "return", "hold", "land", "silence"};
+  return kNames[static_cast<int>(action)];
+}
+
+Safety::Safety(const SafetyConfig& config, const motion::Geofence& geofence)
+    : config_(core::checked(config, "safety")), geofence_(geofence) {}
+
+void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) const {
+  const auto listen = [&](Cause cause, const char* what, Time last, double limit_s) {
+    if (age_s(last, in.now) <= limit_s) return;
+    found.push_back({cause, SafetyAction::hold, silence_text(what, last, in.now, limit_s)});
+  };
+  listen(Cause::vehicle_silent, "state of the vehicle", in.heard.vehicle, config_.vehicle_s);
+  listen(Cause::lidar_silent, "scan", in.heard.lidar, config_.lidar_s);
+  listen(Cause::odometry_stale, "registered scan", in.heard.odometry, config_.odometry_s);
+  listen(Cause::checker_silent, "verdict", in.heard.verdict, config_.verdict_s);
+  listen(Cause::occupancy_stale, "occupancy block", in.heard.occupancy, config_.occupancy_s);
+  listen(Cause::mapping_stale, "map", in.heard.mapping, config_.mapping_s);
+  if (in.planning_due) {
+    listen(Cause::planning_stale, "plan", in.heard.planning, config_.planning_s);
+  }
+}
+
+void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
+  const double charge = in.vehicle.battery_share;
+  if (charge < config_.battery_land_share) {
+    found.push_back({Cause::battery_empty, SafetyAction::land,
+                     fmt::format("battery at {:.0f} %", 100 * charge)});
+  } else if (charge < config_.battery_return_share) {
+    found.push_back({Cause::battery_low, SafetyAction::return_home,
+                     fmt::format("battery at {:.0f} %", 100 * charge)});
+  }
+  if ((in.vehicle.faults & kCollision) != 0) {
+    found.push_back({Cause::collision, SafetyAction::land, "the vehicle has hit something"});
+  }
+  if (in.vehicle.mode == VehicleMode::descend) {
+    const bool rejected = (in.vehicle.faults & kOdometryRejected) != 0;
+    found.push_back({Cause::vehicle_descends, SafetyAction::land,
+                     rejected ? "the flight controller rejects the odometry"
+                              : "the flight controller has no odometry"});
+  }
+}
+
+void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) const {
+  const bool known = in.odometry.status != VehicleOdometryStatus::lost;
+  if (!known || age_s(in.heard.odometry, in.now) > config_.odometry_lost_s) {
+    found.push_back(
+        {Cause::odometry_lost, SafetyAction::silence,
+         silence_text("registered scan", in.heard.odometry, in.now, config_.odometry_lost_s)});
+    return;
+  }
+  if (!geofence_.contains(in.place)) {
+    found.push_back({Cause::outside_geofence, SafetyAction::hold,
+                     fmt::format("({:.1f}, {:.1f}, {:.1f}) is outside the geofence", in.place.x(),
+                                 in.place.y(), in.place.z())});
+  }
+  if (in.flying && in.setpoint) {
+    const double off = (in.setpoint->position - in.odometry.T_odom_body.translation()).norm();
+    if (off > config_.off_course_m) {
+      found.push_back(
+          {Cause::off_course, SafetyAction::hold, fmt::format("{:.1f} m off the setpoint", off)});
+    }
+  }
+}
+
+std::vector<Finding> Safety::findings(const SafetyInput& input) const {
+  std::vector<Finding> found;
+  find_silence(input, found);
+  find_vehicle(input, found);
+  find_place(input, found);
+  return found;
+}
+
+SafetyDecision Safety::worst(std::span<const Finding> findings) {
+  SafetyDecision decision;
+  for (const Finding& finding : findings) {
+    if (finding.action <= decision.action) continue;
+    decision = {finding.action, finding.cause, finding.text};
+  }
+  return decision;
+}
+
+SafetyDecision Safety::update(const SafetyInput& input) {
+  if (!input.flying) {
+    held_for_ = {};
+    return {};
+  }
+  const std::vector<Finding> found = findings(input);
+  const SafetyDecision now = worst(found);
+  if (now.action == SafetyAction::hold) {
+    if (held_for_.action == SafetyAction::none) held_since_ = input.now;
+    held_for_ = now;
+    last_cause_ = input.now;
+  }
+  if (now.action > SafetyAction::hold || held_for_.action == SafetyAction::none) return now;
+  if (now.action != SafetyAction::hold &&
+      input.now - last_cause_ >= from_seconds(config_.recover_s)) {
+    held_for_ = {};
+    return now;
+  }
+  if (input.now - held_since_ < from_seconds(config_.land_after_s)) return held_for_;
+  return {SafetyAction::land, held_for_.cause,
+          fmt::format("{}; held for {:g} s", held_for_.text, config_.land_after_s)};
+}
+
+}  // namespace saker::autonomy

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "autonomy/cause.h"
+#include "core/config.h"
+#include "core/vehicle.h"
+#include "motion/geofence.h"
+
+/// The safety ladder, 50 Hz — reads ages, odometry and the vehicle's state, makes the most severe
+/// action that they call for, with its cause (for the mission).
+///
+/// Rungs, mildest first: nothing; return (battery low); hold (something is stale, outside the
+/// geofence, off course); land (what was held for did not come back, battery empty, collision);
+/// silence (odometry lost: a setpoint would be a guess, the flight controller descends on IMU and
+/// barometer). A hold ends when its causes have been gone for `recover_s`. Reads no clock; cost: a
+/// few comparisons.
+namespace saker::autonomy {
+
+/// Stamps of the newest of everything that must not stop; 0: never came.
+struct Heard {
+  Time vehicle = 0;    ///< state of the flight controller
+  Time lidar = 0;      ///< whole scan
+  Time odometry = 0;   ///< scan that was registered
+  Time verdict = 0;    ///< of the collision checker
+  Time occupancy = 0;  ///< block
+  Time mapping = 0;    ///< cycle of SLAM
+  Time planning = 0;   ///< answer
+};
+
+struct SafetyConfig {
+  double vehicle_s = 0.5;
+  double lidar_s = 0.5;
+  double odometry_s = 0.5;
+  double odometry_lost_s = 1.0;
+  double verdict_s = 0.5;
+  double occupancy_s = 2.0;
+  double mapping_s = 5.0;
+  double planning_s = 4.0;
+  double land_after_s = 10.0;
+  double recover_s = 3.0;
+  double battery_return_share = 0.3;
+  double battery_land_share = 0.15;
+  double off_course_m = 1.5;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("vehicle_s", vehicle_s, {0.05, 10}, "s", "state of the vehicle: comes at 50 Hz");
+    v.field("lidar_s", lidar_s, {0.15, 10}, "s", "scan: five of a sensor of 10 Hz");
+    v.field("odometry_s", odometry_s, {0.15, 10}, "s", "registered scan: then hold");
+    v.field("odometry_lost_s", odometry_lost_s, {0.2, 10}, "s",
+            "registered scan: an inertial unit alone is 0.5 m off after 3 s; then no setpoints");
+    v.field("verdict_s", verdict_s, {0.15, 10}, "s", "verdict: comes at 10 Hz");
+    v.field("occupancy_s", occupancy_s, {0.6, 30}, "s", "occupancy block: comes at 2 Hz");
+    v.field("mapping_s", mapping_s, {0.6, 60}, "s", "map: comes at 2 Hz and is not flown by");
+    v.field("planning_s", planning_s, {1.5, 60}, "s", "answer of planning: comes at 1 Hz");
+    v.field("land_after_s", land_after_s, {0, 300}, "s", "hold, then land");
+    v.field("recover_s", recover_s, {0.1, 60}, "s", "without a cause, then the mission goes on");
+    v.field("battery_return_share", battery_return_share, {0, 1}, "", "of the charge: return");
+    v.field("battery_land_share", battery_land_share, {0, 1}, "", "of the charge: land here");
+    v.field("off_course_m", off_course_m, {0.2, 20}, "m",
+            "from the setpoint: the vehicle cannot do what it is told");
+  }
+};
+
+enum class SafetyAction { none, return_home, hold, land, silence };
+
+[[nodiscard]] const char* to_string(SafetyAction action);
+
+/// One thing that is wrong.
+struct Finding {
+  Cause cause = Cause::none;
+  SafetyAction action = SafetyAction::none;  ///< what it calls for in flight
+  std::string text;                          ///< "no scan for 0.7 s, expected one every 0.5 s"
+};
+
+struct SafetyDecision {
+  SafetyAction action = SafetyAction::none;
+  Cause cause = Cause::none;
+  std::string text;
+};
+
+struct SafetyInput {
+  Time now = 0;
+  Heard heard;
+  VehicleState vehicle;
+  VehicleOdometry odometry;
+  std::optional<Setpoint> setpoint;  ///< the one that is flown
+  Eigen::Vector3d place =
+      Eigen::Vector3d::Constant(NAN);  ///< `world`: what the geofence is to hold
+  bool flying = false;                 ///< off the ground, by the mission's phase
+  bool planning_due = false;           ///< planning has something to do
+};
+
+class Safety {
+ public:
+  Safety(const SafetyConfig& config, const motion::Geofence& geofence);  ///< throws Error
+
+  /// Everything that is wrong now, without memory: what keeps a vehicle on the ground.
+  [[nodiscard]] std::vector<Finding> findings(const SafetyInput& input) const;
+
+  /// In flight, at every step; on the ground it forgets.
+  [[nodiscard]] SafetyDecision update(const SafetyInput& input);
+
+ private:
+  void find_silence(const SafetyInput& input, std::vector<Finding>& found) const;
+  void find_vehicle(const SafetyInput& input, std::vector<Finding>& found) const;
+  void find_place(const SafetyInput& input, std::vector<Finding>& found) const;
+  [[nodiscard]] static SafetyDecision worst(std::span<const Finding> findings);
+
+  SafetyConfig config_;
+  motion::Geofence geofence_;
+  SafetyDecision held_for_;  // the hold under way
+  Time held_since_ = 0;
+  Time last_cause_ = 0;  // when the hold's causes were last there
+};
+
+}  // namespace saker::autonomy

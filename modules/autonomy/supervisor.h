@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "autonomy/mission.h"
+#include "autonomy/safety.h"
+
+namespace saker::autonomy {
+
+struct SupervisorInput {
+  Time now = 0;
+  Heard heard;
+  VehicleState vehicle;
+  VehicleOdometry odometry;
+  SE3 T_world_odom = SE3::Identity();
+  std::optional<Setpoint> setpoint;  ///< the one that is flown
+  std::vector<CommandAck> acks;      ///< since the last step
+  PlanningReport planning;           ///< the newest
+  bool has_targets = false;
+  bool land_ordered = false;
+};
+
+/// One step of the safety loop: what the ladder says, and what the mission makes of it.
+class Supervisor {
+ public:
+  Supervisor(const SafetyConfig& safety, const MissionConfig& mission,
+             const motion::Geofence& geofence);  ///< throws Error on an invalid value
+
+  [[nodiscard]] Mission::Output step(SupervisorInput input);
+
+  [[nodiscard]] const Mission& mission() const { return mission_; }
+
+ private:
+  [[nodiscard]] SafetyInput safety_input(const SupervisorInput& input) const;
+
+  double height_m_;
+  Safety safety_;
+  Mission mission_;
+  Time planning_since_ = 0;  // when planning was last asked to begin; 0: it is not asked
+};
+
+}  // namespace saker::autonomy
