@@ -1,0 +1,114 @@
+#include "bus/bus.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <exception>
+#include <regex>
+
+#include "bus/multicast.h"
+#include "core/error.h"
+
+namespace saker::flight {
+namespace {
+
+// LCM drops the newest message of a full queue; `handle` drains, so that this many are a burst.
+constexpr int kQueueCapacity = 256;
+constexpr int kMostAtOnce = 1024;  // of a network; then `handle` returns even if more keep coming
+
+void check_network(const std::string& url, int buffer_kb) {
+  const MulticastGroup group = multicast_group(url);
+  if (const std::string fault = multicast_fault(group); !fault.empty()) {
+    throw Error("no multicast to " + group.address + " (" + fault +
+                "), mend with: " + multicast_remedy(group));
+  }
+  const int granted = granted_receive_buffer(buffer_kb * 1024);
+  if (granted < buffer_kb * 1024) {
+    throw Error("a socket's receive buffer is " + std::to_string(granted / 1024) +
+                " kB, expected " + std::to_string(buffer_kb) +
+                " kB, mend with: sysctl -w net.core.rmem_max=" + std::to_string(buffer_kb * 1024));
+  }
+}
+
+std::unique_ptr<lcm::LCM> opened(const std::string& url, int buffer_kb) {
+  check_network(url, buffer_kb);
+  const std::string separator = url.find('?') == std::string::npos ? "?" : "&";
+  auto network = std::make_unique<lcm::LCM>(url + separator +
+                                            "recv_buf_size=" + std::to_string(buffer_kb * 1024));
+  // Asking for the descriptor starts the receiver and its test.
+  if (!network->good() || network->getFileno() < 0) {
+    throw Error("LCM cannot be opened on " + url + "; saker doctor says more");
+  }
+  return network;
+}
+
+/// How many messages were handled; negative: the network is gone.
+int drain(lcm::LCM& network) {
+  for (int handled = 0; handled < kMostAtOnce; ++handled) {
+    const int status = network.handleTimeout(0);
+    if (status < 0) return -1;
+    if (status == 0) return handled;
+  }
+  return kMostAtOnce;
+}
+
+const std::string& checked_name(const std::string& robot) {
+  static const std::regex kName("[A-Z][A-Z0-9]{0,15}");
+  if (std::regex_match(robot, kName)) return robot;
+  throw Error("robot " + robot + ", expected up to 16 capitals and digits, as in R1");
+}
+
+}  // namespace
+
+Bus::Bus(const BusConfig& config, const std::string& robot)
+    : Bus(nullptr, nullptr, checked_name(robot)) {
+  const BusConfig valid = core::checked(config, "bus");
+  control_ = opened(valid.control_url, valid.receive_buffer_kb);
+  bulk_ = opened(valid.bulk_url, valid.receive_buffer_kb);
+}
+
+Bus::Bus(std::unique_ptr<lcm::LCM> control, std::unique_ptr<lcm::LCM> bulk,
+         const std::string& robot)
+    : robot_(checked_name(robot)), control_(std::move(control)), bulk_(std::move(bulk)) {}
+
+Bus Bus::in_memory(const std::string& robot) {
+  return Bus(std::make_unique<lcm::LCM>("memq://"), nullptr, robot);
+}
+
+void Bus::subscribe(Network network, std::unique_ptr<Subscription> subscription) {
+  lcm::Subscription* const handle =
+      on(network).subscribeFunction(subscription->channel, &Bus::on_message, subscription.get());
+  handle->setQueueCapacity(kQueueCapacity);
+  subscriptions_.push_back(std::move(subscription));
+}
+
+void Bus::on_message(const lcm::ReceiveBuffer* bytes, const std::string&,
+                     Subscription* subscription) {
+  bool refused = false;
+  bool whole = false;
+  try {
+    whole = subscription->decode(*bytes, refused);
+  } catch (const std::exception&) {  // memory that cannot be had must not end the process
+  }
+  ++(whole ? subscription->received : subscription->malformed);
+  if (refused) ++subscription->refused;
+}
+
+int Bus::handle(std::chrono::milliseconds timeout) {
+  pollfd ready[2] = {{control_->getFileno(), POLLIN, 0},
+                     {bulk_ ? bulk_->getFileno() : -1, POLLIN, 0}};
+  if (::poll(ready, 2, static_cast<int>(std::max<std::int64_t>(0, timeout.count()))) <= 0) return 0;
+  const int control = drain(*control_);
+  const int bulk = bulk_ ? drain(*bulk_) : 0;
+  return control < 0 || bulk < 0 ? -1 : control + bulk;
+}
+
+std::vector<Bus::Counters> Bus::counters() const {
+  std::vector<Counters> result;
+  for (const auto& s : subscriptions_) {
+    result.push_back({s->channel, s->received, s->malformed, s->refused});
+  }
+  return result;
+}
+
+}  // namespace saker::flight

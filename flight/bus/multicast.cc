@@ -1,0 +1,111 @@
+#include "bus/multicast.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <regex>
+
+#include "core/error.h"
+
+namespace saker::flight {
+namespace {
+
+constexpr int kReturnTimeoutMs = 200;  // on one machine a datagram is back within 1 ms
+
+/// A UDP socket that closes itself.
+class Socket {
+ public:
+  Socket() : descriptor_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {}
+  ~Socket() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  [[nodiscard]] int get() const { return descriptor_; }
+  template <class T>
+  [[nodiscard]] bool set(int level, int option, const T& value) const {
+    return ::setsockopt(descriptor_, level, option, &value, sizeof value) == 0;
+  }
+
+ private:
+  int descriptor_;
+};
+
+sockaddr_in socket_address(in_addr address, std::uint16_t port) {
+  sockaddr_in result{};
+  result.sin_family = AF_INET;
+  result.sin_addr = address;
+  result.sin_port = htons(port);
+  return result;
+}
+
+std::string because(const char* what) { return std::string(what) + ": " + std::strerror(errno); }
+
+/// Binds to any free port and joins; the port, or 0.
+std::uint16_t join(const Socket& socket, in_addr group) {
+  sockaddr_in any = socket_address({htonl(INADDR_ANY)}, 0);
+  socklen_t size = sizeof any;
+  const ip_mreq membership{group, {htonl(INADDR_ANY)}};
+  const bool joined = ::bind(socket.get(), reinterpret_cast<sockaddr*>(&any), sizeof any) == 0 &&
+                      ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&any), &size) == 0 &&
+                      socket.set(IPPROTO_IP, IP_ADD_MEMBERSHIP, membership);
+  return joined ? ntohs(any.sin_port) : 0;
+}
+
+}  // namespace
+
+MulticastGroup multicast_group(const std::string& url) {
+  static const std::regex kForm(R"(udpm://([0-9.]+):([0-9]{1,5})(\?.*)?)");
+  std::smatch found;
+  in_addr address{};
+  const bool formed = std::regex_match(url, found, kForm);
+  if (formed && ::inet_pton(AF_INET, found[1].str().c_str(), &address) == 1 &&
+      IN_MULTICAST(ntohl(address.s_addr))) {
+    const int port = std::stoi(found[2].str());
+    if (port > 0 && port <= 65535) return {found[1].str(), static_cast<std::uint16_t>(port)};
+  }
+  throw Error("LCM URL " + url + ", expected udpm://239.255.76.67:7667?ttl=0 or another group");
+}
+
+std::string multicast_fault(const MulticastGroup& group) {
+  in_addr address{};
+  if (::inet_pton(AF_INET, group.address.c_str(), &address) != 1) return "no such address";
+  const Socket receiver, sender;
+  if (receiver.get() < 0 || sender.get() < 0) return because("no socket");
+  const std::uint16_t port = join(receiver, address);
+  if (port == 0) return because("no route");
+  (void)sender.set(IPPROTO_IP, IP_MULTICAST_TTL, 0);
+  (void)sender.set(IPPROTO_IP, IP_MULTICAST_LOOP, 1);
+  const sockaddr_in to = socket_address(address, port);
+  const char byte = 0;
+  if (::sendto(sender.get(), &byte, 1, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 1) {
+    return because("no route");
+  }
+  pollfd ready{receiver.get(), POLLIN, 0};
+  if (::poll(&ready, 1, kReturnTimeoutMs) != 1) return "a datagram does not come back: firewall?";
+  return "";
+}
+
+std::string multicast_remedy(const MulticastGroup& group) {
+  return "ip link set lo multicast on; ip route add " + group.address + "/32 dev lo";
+}
+
+int granted_receive_buffer(int bytes) {
+  const Socket socket;
+  int granted = 0;
+  socklen_t size = sizeof granted;
+  if (!socket.set(SOL_SOCKET, SO_RCVBUF, bytes) ||
+      ::getsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &granted, &size) != 0) {
+    return 0;
+  }
+  return granted / 2;  // the kernel counts its own share too
+}
+
+}  // namespace saker::flight
