@@ -33,9 +33,12 @@ struct VisitConfig {
   double oblique_worth_m = 10;
   double unknown_worth_m = 5;
   double switch_m = 5;
-  double patience_s = 15;
+  double patience_s = 20;
   double progress_m = 0.5;
+  double refused_m = 3;
   int most_refusals = 3;
+  int most_goals = 12;
+  int attempts = 2;
   bool return_home = true;
 
   template <class Visitor>
@@ -55,8 +58,15 @@ struct VisitConfig {
     v.field("patience_s", patience_s, {1, 600}, "s",
             "without coming nearer or seeing a side, until a viewpoint is given up");
     v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
+    v.field("refused_m", refused_m, {0, 20}, "m",
+            "around a viewpoint that was given up none is tried: it would be given up as well");
     v.field("most_refusals", most_refusals, {1, 50}, "",
             "viewpoints given up in flight, until the target is");
+    v.field(
+        "most_goals", most_goals, {1, 200}, "",
+        "viewpoints flown to without seeing a side, until the target is given up: no dithering");
+    v.field("attempts", attempts, {1, 5}, "",
+            "at a target that was seen from no side: the later ones when all others are closed");
     v.field("return_home", return_home, "", "whether the tour ends where it began");
   }
 };

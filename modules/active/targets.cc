@@ -1,0 +1,128 @@
+#include "active/targets.h"
+
+#include <algorithm>
+#include <limits>
+#include <variant>
+
+#include "core/error.h"
+#include "objects/assignment.h"
+
+namespace saker::active {
+namespace {
+
+using objects::Cuboid;
+using objects::MapObject;
+
+Eigen::Vector3d default_size(const TargetsConfig& config) {
+  if (config.default_size_m.size() != 3) {
+    throw Error("active.targets.default_size_m: " + std::to_string(config.default_size_m.size()) +
+                " numbers, expected length, width and height");
+  }
+  return Eigen::Vector3d(config.default_size_m.data());
+}
+
+/// What an object occupies; a cylinder as the upright cuboid around it.
+Cuboid cuboid_of(const objects::Model& model) {
+  if (const auto* cuboid = std::get_if<Cuboid>(&model)) return *cuboid;
+  const auto& cylinder = std::get<objects::Cylinder>(model);
+  Cuboid around;
+  around.size = {2 * cylinder.radius, 2 * cylinder.radius, cylinder.height};
+  around.pose.translation() = cylinder.root + 0.5 * cylinder.height * Eigen::Vector3d::UnitZ();
+  return around;
+}
+
+std::string name_of(const MapObject& object) {
+  return "prior map, object " + std::to_string(object.id) + ": ";
+}
+
+/// A prior knows the place roughly and the size perhaps; what it does not know is the default's.
+Cuboid prior_extent(const MapObject& object, const TargetsConfig& config) {
+  Cuboid extent = cuboid_of(object.model);
+  if (!objects::place(object.model).allFinite()) {
+    throw Error(name_of(object) + "its place is not finite, expected three numbers");
+  }
+  const Eigen::Vector3d size = default_size(config);
+  if (!extent.pose.matrix().allFinite()) {
+    extent.pose = SE3(Eigen::Translation3d(objects::place(object.model)));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(extent.size[axis] > 0 && std::isfinite(extent.size[axis])))
+      extent.size[axis] = size[axis];
+  }
+  extent.size.head<2>().array() += 2 * config.prior_margin_m;
+  return extent;
+}
+
+bool is_target(const objects::ClassTable& table, objects::ClassId id) {
+  return id < table.size() && table[id].target;
+}
+
+}  // namespace
+
+TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& table,
+                       const objects::ObjectMap& prior)
+    : config_(config) {
+  for (const MapObject& object : prior.objects) {
+    if (!is_target(table, object.class_id)) continue;
+    Target& target = targets_.emplace_back();
+    target.id = object.id;
+    target.class_id = object.class_id;
+    target.extent = prior_extent(object, config);
+    target.prior_place = target.place();
+  }
+  std::stable_sort(targets_.begin(), targets_.end(),
+                   [](const Target& a, const Target& b) { return a.id < b.id; });
+  const auto twice = std::adjacent_find(targets_.begin(), targets_.end(),
+                                        [](auto& a, auto& b) { return a.id == b.id; });
+  if (twice != targets_.end()) {
+    throw Error("prior map: the id " + std::to_string(twice->id) + " occurs twice");
+  }
+  if (size() > config.most_targets) {
+    throw Error("prior map: " + std::to_string(size()) + " targets, expected at most " +
+                std::to_string(config.most_targets) + " (active.targets.most_targets)");
+  }
+  for (const Target& target : targets_) prior_extent_.push_back(target.extent);
+}
+
+double TargetList::distance(const Target& target, const MapObject& object) const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (object.class_id != target.class_id) return kNever;
+  const Cuboid mapped = cuboid_of(object.model);
+  const Eigen::Vector3d between = mapped.pose.translation() - target.prior_place;
+  if (!mapped.pose.matrix().allFinite() || !mapped.size.allFinite()) return kNever;
+  if (std::abs(between.z()) > config_.height_gate_m) return kNever;
+  return between.head<2>().norm();
+}
+
+void TargetList::associate(const objects::ObjectMap& map) {
+  Eigen::MatrixXd cost(size(), static_cast<Eigen::Index>(map.objects.size()));
+  for (int t = 0; t < size(); ++t) {
+    for (Eigen::Index o = 0; o < cost.cols(); ++o)
+      cost(t, o) = distance(targets_[t], map.objects[o]);
+  }
+  const std::vector<int> object_of = objects::assign(cost, config_.gate_m);
+  for (int t = 0; t < size(); ++t) {
+    attach(t, object_of[t] < 0 ? nullptr : &map.objects[object_of[t]]);
+  }
+}
+
+void TargetList::attach(int index, const MapObject* object) {
+  Target& target = targets_[index];
+  target.object_id = object ? object->id : -1;
+  target.extent = object ? cuboid_of(object->model) : prior_extent_[index];
+  if (target.status == TargetStatus::done || target.status == TargetStatus::visited) {
+    target.status = object ? TargetStatus::done : TargetStatus::visited;
+  }
+}
+
+void TargetList::close(int index, TargetStatus status, std::string reason) {
+  targets_[index].status = status;
+  targets_[index].reason = std::move(reason);
+}
+
+int TargetList::count(TargetStatus status) const {
+  return static_cast<int>(std::count_if(targets_.begin(), targets_.end(),
+                                        [&](const Target& t) { return t.status == status; }));
+}
+
+}  // namespace saker::active
