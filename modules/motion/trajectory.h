@@ -18,6 +18,9 @@ struct MotionState {
   double yaw_rate = NAN;                                          ///< rad/s
 };
 
+/// The same angle within ±π.
+[[nodiscard]] double wrapped(double angle);
+
 /// A timed motion in `odom` that ends at rest. Samples at a fixed step; between them cubic Hermite
 /// interpolation of position and velocity. After its end it stays at its last state, at rest.
 struct Trajectory {

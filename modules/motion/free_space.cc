@@ -1,0 +1,135 @@
+#include "motion/free_space.h"
+
+#include <algorithm>
+
+namespace saker::motion {
+namespace {
+
+using occupancy::Cell;
+using occupancy::DistanceField;
+using occupancy::OccupancyGrid;
+
+constexpr double kFarthest_m = 2.5;  // more makes the field dearer and the steps hardly longer
+
+/// Only the cells of the box around the exempted places need a look.
+void free_where_exempt(OccupancyGrid& grid, const Exemption& exemption,
+                       const ClearanceConfig& config, const Eigen::Vector3d& low,
+                       const Eigen::Vector3d& high) {
+  if (!low.allFinite()) return;
+  const Eigen::Vector3i first = grid.index_of(low).cwiseMax(0);
+  const Eigen::Vector3i last = grid.index_of(high).cwiseMin(grid.size - Eigen::Vector3i::Ones());
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) {
+        Cell& cell = grid.cells[grid.offset({x, y, z})];
+        if (cell == Cell::unknown && exemption.contains(grid.centre_of({x, y, z}), config))
+          cell = Cell::free;
+      }
+}
+
+OccupancyGrid with_exemption(OccupancyGrid grid, const Exemption& exemption,
+                             const ClearanceConfig& config) {
+  const double r = config.takeoff_radius_m;
+  free_where_exempt(grid, exemption, config, exemption.takeoff - Eigen::Vector3d(r, r, 0),
+                    exemption.takeoff + Eigen::Vector3d(r, r, config.takeoff_height_m));
+  const Eigen::Vector3d ball = Eigen::Vector3d::Constant(config.vehicle_ball_m);
+  free_where_exempt(grid, exemption, config, exemption.vehicle - ball, exemption.vehicle + ball);
+  return grid;
+}
+
+}  // namespace
+
+FreeSpace::FreeSpace(const OccupancyGrid& snapshot, const ClearanceConfig& config,
+                     const Geofence& fence, const Exemption& exemption)
+    : config_(config),
+      fence_(fence),
+      vehicle_(exemption.vehicle),
+      grid_(with_exemption(snapshot, exemption, config)),
+      field_(grid_, kFarthest_m, occupancy::UnknownCells::occupied),
+      clearance_of_vehicle_m_(clearance_m(vehicle_)),
+      inside_of_vehicle_m_(fence.inside_m(vehicle_)) {}
+
+double FreeSpace::clearance_m(const Eigen::Vector3d& p) const {
+  const Eigen::Vector3d from_centres =
+      (p - grid_.origin) / grid_.resolution_m - Eigen::Vector3d::Constant(0.5);
+  const Eigen::Vector3d floor = from_centres.array().floor();
+  const bool inside =
+      (floor.array() >= 0).all() && (floor.array() + 1 < grid_.size.cast<double>().array()).all();
+  if (!inside) return 0;
+  const Eigen::Vector3i c = floor.cast<int>();
+  const Eigen::Vector3d u = from_centres - floor;
+  const auto along_x = [&](int y, int z) {
+    const double a = field_.of_cell({c.x(), c.y() + y, c.z() + z});
+    const double b = field_.of_cell({c.x() + 1, c.y() + y, c.z() + z});
+    return a + u.x() * (b - a);
+  };
+  const double low = along_x(0, 0) + u.y() * (along_x(1, 0) - along_x(0, 0));
+  const double high = along_x(0, 1) + u.y() * (along_x(1, 1) - along_x(0, 1));
+  return low + u.z() * (high - low);
+}
+
+bool FreeSpace::near_vehicle(const Eigen::Vector3d& p) const {
+  return (p - vehicle_).squaredNorm() < config_.vehicle_ball_m * config_.vehicle_ball_m;
+}
+
+double FreeSpace::needed_clearance_m(bool near_vehicle) const {
+  const double needed = config_.least_m() + config_.planning_slack_m;
+  return near_vehicle ? std::min(needed, clearance_of_vehicle_m_) : needed;
+}
+
+double FreeSpace::needed_inside_m(bool near_vehicle) const {
+  const double needed = config_.planning_slack_m;
+  return near_vehicle ? std::min(needed, inside_of_vehicle_m_) : needed;
+}
+
+double FreeSpace::slack_m(const Eigen::Vector3d& p) const {
+  const bool near = near_vehicle(p);
+  return std::min(clearance_m(p) - needed_clearance_m(near),
+                  fence_.inside_m(p) - needed_inside_m(near));
+}
+
+bool FreeSpace::free(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+  const double length = (b - a).norm();
+  if (!std::isfinite(length)) return false;
+  const Eigen::Vector3d direction = length > 0 ? Eigen::Vector3d((b - a) / length) : b - a;
+  for (double s = 0; s < length;) {
+    const double slack = slack_m(a + s * direction);
+    if (slack < 0) return false;
+    s += std::max(slack, 0.5 * grid_.resolution_m);
+  }
+  return free(b);
+}
+
+bool FreeSpace::safe(const Eigen::Vector3d& p) const {
+  const bool near = near_vehicle(p);
+  const double needed =
+      std::max(config_.robot_radius_m, needed_clearance_m(near) - config_.planning_slack_m);
+  return clearance_m(p) >= needed &&
+         fence_.inside_m(p) >= needed_inside_m(near) - config_.planning_slack_m;
+}
+
+bool FreeSpace::vehicle_is_clear() const {
+  return clearance_of_vehicle_m_ >= config_.robot_radius_m;
+}
+
+bool FreeSpace::cell_far_enough(const Eigen::Vector3i& cell, double distance_m) const {
+  if (distance_m < config_.robot_radius_m) return false;  // most cells that are not free end here
+  const Eigen::Vector3d p = grid_.centre_of(cell);
+  const bool near = near_vehicle(p);
+  return distance_m >= needed_clearance_m(near) && fence_.inside_m(p) >= needed_inside_m(near);
+}
+
+bool FreeSpace::cell_free(const Eigen::Vector3i& cell) const {
+  return cell_far_enough(cell, field_.of_cell(cell));
+}
+
+bool FreeSpace::cell_may_be_free(const Eigen::Vector3i& cell, const DistanceField& occupied) const {
+  return cell_far_enough(cell, occupied.of_cell(cell));
+}
+
+DistanceField FreeSpace::occupied_field() const {
+  const double enough_m = config_.least_m() + config_.planning_slack_m + grid_.resolution_m;
+  return DistanceField(grid_, enough_m, occupancy::UnknownCells::free);
+}
+
+}  // namespace saker::motion
