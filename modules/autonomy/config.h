@@ -1,7 +1,14 @@
 #pragma once
 
+#include "active/active.h"
+#include "autonomy/body_pose.h"
+#include "autonomy/guidance.h"
+#include "autonomy/mission.h"
+#include "autonomy/planning.h"
+#include "autonomy/safety.h"
 #include "core/config.h"
 #include "detection/detection.h"
+#include "motion/motion.h"
 #include "objects/class_table.h"
 #include "odometry/odometry.h"
 #include "segmentation/segmentation.h"
@@ -13,6 +20,7 @@ namespace saker::autonomy {
 struct RateConfig {
   double segmentation_hz = 5;
   double slam_hz = 2;
+  double flight_segmentation_hz = 2;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -20,6 +28,24 @@ struct RateConfig {
             "scans that get labels; 5 keeps a window of 1 s at five views and costs half a thread");
     v.field("slam_hz", slam_hz, {0.1, 10}, "Hz",
             "detection and SLAM cycles: the rate of the flown loop");
+    v.field("flight_segmentation_hz", flight_segmentation_hz, {0.5, 20}, "Hz",
+            "the same in flight, where one thread of two has other things to do");
+  }
+};
+
+/// How late results are in lockstep, as on the vehicle's computer.
+struct LatencyConfig {
+  double odometry_s = 0.05;
+  double segmentation_s = 0.12;
+  double mapping_s = 0.25;
+  double planning_s = 0.3;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("odometry_s", odometry_s, {0, 1}, "s", "registration of a scan");
+    v.field("segmentation_s", segmentation_s, {0, 2}, "s", "labels of a scan");
+    v.field("mapping_s", mapping_s, {0, 5}, "s", "a cycle of detection and SLAM");
+    v.field("planning_s", planning_s, {0, 5}, "s", "a decision; less than planning.horizon_s");
   }
 };
 
@@ -31,6 +57,15 @@ struct Config {
   detection::DetectionConfig detection;
   slam::SlamConfig slam;
   RateConfig rates;
+  MountConfig mount;
+  BodyPoseConfig body_pose;
+  motion::MotionConfig motion;
+  active::ActiveConfig active;
+  PlanningConfig planning;
+  GuidanceConfig guidance;
+  SafetyConfig safety;
+  MissionConfig mission;
+  LatencyConfig latency;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -40,6 +75,15 @@ struct Config {
     v.group("detection", detection, "virtual sensors: ground, vehicles, trunks and poles");
     v.group("slam", slam, "object SLAM");
     v.group("rates", rates, "how often the stages run");
+    v.group("mount", mount, "where the lidar is on the body: T_body_lidar");
+    v.group("body_pose", body_pose, "the pose between scans");
+    v.group("motion", motion, "trajectories");
+    v.group("active", active, "where to look next");
+    v.group("planning", planning, "the step of planning");
+    v.group("guidance", guidance, "setpoints");
+    v.group("safety", safety, "when to return, hold, land");
+    v.group("mission", mission, "phases and their deadlines");
+    v.group("latency", latency, "of the stages in lockstep");
   }
 };
 

@@ -9,8 +9,8 @@
 #include "motion/trajectory.h"
 #include "occupancy/grid.h"
 
-/// What lies outside of the autonomy, behind interfaces: in one process on simulated time (lockstep)
-/// or over UDP and LCM (real time). No call blocks.
+/// What lies outside of the autonomy, behind interfaces: in one process on simulated time
+/// (lockstep) or over UDP and LCM (real time). No call blocks.
 namespace saker::autonomy {
 
 /// A UDP payload of the sensor, lidar or inertial.

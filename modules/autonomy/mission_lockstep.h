@@ -1,0 +1,162 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/config.h"
+#include "autonomy/delayed.h"
+#include "autonomy/lockstep.h"
+#include "autonomy/pipeline.h"
+#include "autonomy/plant.h"
+#include "autonomy/schedule.h"
+#include "autonomy/supervisor.h"
+#include "autonomy/worker_pool.h"
+#include "core/timings.h"
+
+/// The lockstep driver of a flown mission: every loop of the executive on the plant's time, in a
+/// fixed order, each result as late as on the vehicle's computer (`latency`).
+///
+///     every 10 ms: plant ─▶ packets ─▶ pose of the body ─▶ plant
+///                     └─ scan ─▶ odometry ─▶ collision checker
+///                                   └─ labels ─▶ detection, SLAM ─▶ planning ─▶ proposal
+///     every 20 ms: safety, mission, guidance ─▶ setpoint, command ─▶ plant
+///
+/// Segmentation, mapping and planning may be computed side by side on workers while their latency
+/// runs; when they are taken follows from the stamps alone: the result is the same to the byte for
+/// any number of threads.
+namespace saker::autonomy {
+
+/// A plant whose time is made by its caller.
+class SteppedPlant : public Plant {
+ public:
+  [[nodiscard]] virtual Time now() const = 0;
+  virtual void step_to(Time time) = 0;
+};
+
+/// A collision checker on the same time.
+class SteppedChecker : public CollisionCheckerLink {
+ public:
+  virtual void step_to(Time time) = 0;
+};
+
+/// Hears what happens, in order, on the driver's thread.
+class MissionObserver {
+ public:
+  virtual ~MissionObserver() = default;
+  virtual void on_scan(const IngestedScan& /*scan*/) {}
+  virtual void on_map(const MapSnapshot& /*map*/) {}
+  virtual void on_plan(const PlanningReport& /*report*/, const active::ActivePlan& /*plan*/) {}
+  virtual void on_event(const MissionEvent& /*event*/) {}
+  /// 50 Hz, in flight.
+  virtual void on_setpoint(const Setpoint& /*setpoint*/, const VehicleOdometry& /*odometry*/) {}
+};
+
+struct MissionCounters {
+  int scans = 0;
+  int scans_not_registered = 0;
+  int labelled_scans = 0;
+  int slam_cycles = 0;
+  int plans = 0;
+  int refused_plans = 0;
+  int commits = 0;
+  int refused_commits = 0;  ///< late, or begun on what was no longer flown
+  int stops = 0;            ///< by the verdict, or a hold
+};
+
+struct MissionResult {
+  bool succeeded = false;  ///< all targets that can be reached, home and landed there
+  MissionPhase phase = MissionPhase::preflight;  ///< at the end; done unless time ran out
+  Cause outcome = Cause::none;
+  double flight_time_s = 0;  ///< from take-off to touch-down
+  double path_m = 0;         ///< flown, by odometry
+  std::vector<ScanRecord> scans;
+  std::vector<SE3> T_world_lidar;  ///< beside `scans`: after SLAM
+  objects::ObjectMap map;
+  std::vector<active::Target> targets;
+  std::vector<MissionEvent> events;
+  MissionCounters counters;
+};
+
+class MissionLockstep {
+ public:
+  /// \param prior    rough places of the targets, `world`
+  /// \param threads  in all, this one included
+  /// Throws Error on an invalid configuration, prior map or model.
+  MissionLockstep(const Config& config, const lidar::SensorInfo& sensor,
+                  const objects::ObjectMap& prior, SteppedPlant& plant, SteppedChecker& checker,
+                  int threads, core::Timings& timings);
+  ~MissionLockstep();
+
+  /// Until it has landed, or for `limit_s` of the plant's time.
+  [[nodiscard]] MissionResult run(double limit_s, MissionObserver& observer);
+
+ private:
+  using Labels = std::shared_future<std::shared_ptr<const lidar::Labels>>;
+  using Map = std::shared_future<std::shared_ptr<const MapSnapshot>>;
+  using Plan = std::shared_future<Planning::Output>;
+  struct Labelled {
+    RegisteredScan registered;
+    Labels labels;
+  };
+
+  void step(Time now);
+  void receive(Time now);
+  void ingest(Time now);
+  void take_scan(const IngestedScan& scan, Time now);
+  void segment(const IngestedScan& scan, Time now);
+  void map(Time now);
+  void check();
+  void plan(Time now);
+  void take_plan(const Planning::Output& output, Time now);
+  void supervise(Time now);
+  void guide(Time now);
+  void send_trajectory();
+  [[nodiscard]] MissionResult finish();
+
+  Config config_;
+  core::Timings& timings_;
+  SteppedPlant& plant_;
+  SteppedChecker& checker_;
+  MissionObserver* observer_ = nullptr;  // during a run
+
+  Ingestion ingestion_;
+  BodyPose body_pose_;
+  MotionLog motion_log_;
+  LabelledWindow window_;
+  Mapping mapping_;
+  Planning planning_;
+  Guidance guidance_;
+  Supervisor supervisor_;
+  const lidar::SensorInfo sensor_;
+
+  Schedule segmentation_schedule_;
+  Schedule slam_schedule_;
+  Schedule planning_schedule_;
+  Delayed<IngestedScan> scans_;
+  Delayed<Labelled> labels_;
+  Delayed<Map> maps_;
+  Delayed<Plan> plans_;
+  Map last_map_;  // the cycle that was begun last
+
+  // The newest of everything.
+  Heard heard_;
+  VehicleState vehicle_;
+  VehicleOdometry odometry_;
+  std::vector<CommandAck> acks_;
+  std::shared_ptr<const MapSnapshot> map_;
+  std::shared_ptr<const occupancy::OccupancyGrid> grid_;
+  std::optional<motion::Verdict> verdict_;
+  std::optional<Setpoint> setpoint_;
+  PlanningReport report_;
+  MissionOrders orders_;
+  std::int64_t sent_trajectory_ = 0;
+  bool odd_tick_ = false;
+  Time took_off_ = 0;
+  MissionResult result_;
+
+  WorkerPool<segmentation::Segmentation> pool_;  // last: its threads use what stands above
+};
+
+}  // namespace saker::autonomy

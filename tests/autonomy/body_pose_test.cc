@@ -1,0 +1,181 @@
+#include "autonomy/body_pose.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/rng.h"
+
+namespace saker::autonomy {
+namespace {
+
+constexpr double kGravity = 9.80665;
+constexpr Time kImuStep = kNanosecondsPerSecond / 100;
+
+/// A vehicle that flies figures, its heading along with them, after standing for a second.
+struct MadeFlightPath {
+  static double phase(double t) { return t < 1 ? 0 : 0.6 * ((t - 1) + (std::exp(1 - t) - 1)); }
+  static Eigen::Vector3d position(double t) {
+    const double a = phase(t);
+    return {3 * std::sin(a), 2 * (1 - std::cos(a)), 1 - std::cos(0.7 * a)};
+  }
+  static SE3 T_odom_body(double t) {
+    SE3 T = SE3::Identity();
+    const double a = phase(t);
+    T.linear() = (Eigen::AngleAxisd(0.8 * a, Eigen::Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(0.1 * std::sin(2 * a), Eigen::Vector3d::UnitY()))
+                     .toRotationMatrix();
+    T.translation() = position(t);
+    return T;
+  }
+};
+
+/// What IMU and scans on that vehicle say, of a lidar mounted on it, by differences.
+class MadeSensors {
+ public:
+  explicit MadeSensors(const SE3& T_body_lidar) : T_body_lidar_(T_body_lidar) {}
+
+  [[nodiscard]] SE3 T_odom_lidar(double t) const {
+    return MadeFlightPath::T_odom_body(t) * T_body_lidar_;
+  }
+  [[nodiscard]] lidar::ImuSample imu(Time stamp) const {
+    const double t = to_seconds(stamp) - 0.005;  // a sample says what was since the last one
+    const double h = 1e-3;
+    const SE3 before = T_odom_lidar(t - h), at = T_odom_lidar(t), after = T_odom_lidar(t + h);
+    const Eigen::Vector3d acceleration =
+        (after.translation() - 2 * at.translation() + before.translation()) / (h * h);
+    lidar::ImuSample sample;
+    sample.stamp = stamp;
+    sample.acceleration =
+        at.linear().transpose() * (acceleration + Eigen::Vector3d(0, 0, kGravity)) +
+        acceleration_bias;
+    sample.angular_velocity =
+        core::so3_log(before.linear().transpose() * after.linear()) / (2 * h) + rate_bias;
+    return sample;
+  }
+
+  Eigen::Vector3d acceleration_bias = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate_bias = Eigen::Vector3d::Zero();
+
+ private:
+  SE3 T_body_lidar_;
+};
+
+struct Errors {
+  double position_m = 0, velocity_mps = 0, angle_rad = 0;
+};
+
+SE3 mount() { return mount_pose({{0.1, -0.05, 0.12}, {2, -3, 30}}); }
+
+/// The worst errors after `settle_s`; scans come 10 a second, 60 ms late, up to `last_scan_s`.
+Errors fly(BodyPose& pose, const MadeSensors& sensors, double noise_m, double settle_s,
+           double end_s, double last_scan_s = 1e9) {
+  core::Rng rng(3);
+  Errors worst;
+  std::deque<Time> scans;
+  for (Time now = kImuStep; to_seconds(now) < end_s; now += kImuStep) {
+    pose.add(sensors.imu(now));
+    if (now % (10 * kImuStep) == 0 && to_seconds(now) < last_scan_s) scans.push_back(now);
+    if (!scans.empty() && now - scans.front() >= 6 * kImuStep) {
+      SE3 T = sensors.T_odom_lidar(to_seconds(scans.front()));
+      for (int i = 0; i < 3; ++i) T.translation()(i) += rng.normal(0, noise_m);
+      pose.correct(scans.front(), T);
+      scans.pop_front();
+    }
+    const double t = to_seconds(now);
+    if (t < settle_s) continue;
+    const VehicleOdometry odometry = pose.at(now);
+    const SE3 truth = MadeFlightPath::T_odom_body(t);
+    const Eigen::Vector3d velocity =
+        (MadeFlightPath::position(t + 1e-4) - MadeFlightPath::position(t - 1e-4)) / 2e-4;
+    const SE3 error = truth.inverse() * odometry.T_odom_body;
+    worst.position_m = std::max(worst.position_m, error.translation().norm());
+    worst.angle_rad = std::max(worst.angle_rad, core::so3_log(error.linear()).norm());
+    worst.velocity_mps = std::max(worst.velocity_mps, (odometry.velocity - velocity).norm());
+  }
+  return worst;
+}
+
+TEST(BodyPose, FollowsAFlightWithinCentimetresWhenScansComeLate) {
+  BodyPose pose({}, mount());
+  const Errors worst = fly(pose, MadeSensors(mount()), 0, 3, 30);
+  EXPECT_LT(worst.position_m, 0.02);
+  EXPECT_LT(worst.velocity_mps, 0.05);
+  EXPECT_LT(worst.angle_rad, 0.01);
+}
+
+TEST(BodyPose, LearnsTheBiasesOfTheInertialUnit) {
+  BodyPose pose({}, mount());
+  MadeSensors sensors(mount());
+  sensors.acceleration_bias = {0.15, -0.1, 0.1};
+  sensors.rate_bias = {0.01, -0.008, 0.012};
+  const Errors worst = fly(pose, sensors, 0, 6, 30);
+  EXPECT_LT(worst.position_m, 0.02);
+  EXPECT_LT(worst.velocity_mps, 0.05);
+  EXPECT_LT(worst.angle_rad, 0.01);
+}
+
+TEST(BodyPose, SmoothsTheNoiseOfTheScans) {
+  BodyPose pose({}, mount());
+  const Errors worst = fly(pose, MadeSensors(mount()), 0.01, 3, 30);
+  EXPECT_LT(worst.position_m, 0.06);
+  EXPECT_LT(worst.velocity_mps, 0.3);
+}
+
+TEST(BodyPose, SaysHowOldItsScanIs) {
+  const BodyPoseConfig config;
+  BodyPose pose(config, mount());
+  EXPECT_EQ(pose.at(kImuStep).status, VehicleOdometryStatus::lost);
+  const MadeSensors sensors(mount());
+  (void)fly(pose, sensors, 0, 0, 2, 2.0);
+  const Time last = from_seconds(1.9);
+  EXPECT_EQ(pose.at(last + from_seconds(config.fresh_s)).status, VehicleOdometryStatus::ok);
+  EXPECT_EQ(pose.at(last + from_seconds(config.fresh_s + 0.02)).status,
+            VehicleOdometryStatus::predicted);
+  EXPECT_EQ(pose.at(last + from_seconds(config.lost_s + 0.02)).status, VehicleOdometryStatus::lost);
+}
+
+TEST(BodyPose, CoastsOnTheInertialUnitWhenScansStop) {
+  BodyPose pose({}, mount());
+  const Errors worst = fly(pose, MadeSensors(mount()), 0, 19, 21, 20.0);
+  EXPECT_LT(worst.position_m, 0.15);
+}
+
+TEST(BodyPose, TakesOverAJumpAndCountsIt) {
+  BodyPose pose({}, SE3::Identity());
+  pose.correct(kImuStep, SE3::Identity());
+  SE3 T = SE3::Identity();
+  T.translation().x() = 5;
+  pose.correct(11 * kImuStep, T);
+  const VehicleOdometry odometry = pose.at(11 * kImuStep);
+  EXPECT_EQ(odometry.reset_counter, 1);
+  EXPECT_DOUBLE_EQ(odometry.T_odom_body.translation().x(), 5);
+  EXPECT_DOUBLE_EQ(odometry.velocity.norm(), 0);
+}
+
+TEST(BodyPose, LeavesOutWhatIsNotFiniteOrOld) {
+  BodyPose pose({}, SE3::Identity());
+  pose.correct(20 * kImuStep, SE3::Identity());
+  lidar::ImuSample broken;
+  broken.stamp = 21 * kImuStep;
+  pose.add(broken);
+  SE3 far = SE3::Identity();
+  far.translation().x() = 100;
+  pose.correct(10 * kImuStep, far);
+  far.translation().x() = NAN;
+  pose.correct(30 * kImuStep, far);
+  EXPECT_EQ(pose.at(22 * kImuStep).T_odom_body.translation(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(pose.at(22 * kImuStep).reset_counter, 0);
+}
+
+TEST(MountPose, TurnsByYawPitchAndRoll) {
+  const SE3 T = mount_pose({{1, 2, 3}, {0, 0, 90}});
+  EXPECT_TRUE((T * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 3, 3)));
+  EXPECT_THROW((void)mount_pose({{1, 2}, {0, 0, 0}}), Error);
+}
+
+}  // namespace
+}  // namespace saker::autonomy

@@ -1,0 +1,183 @@
+#include "autonomy/safety.h"
+
+#include <gtest/gtest.h>
+
+namespace saker::autonomy {
+namespace {
+
+constexpr Time kStep = kNanosecondsPerSecond / 50;
+
+/// Flies where nothing is wrong.
+SafetyInput good(Time now) {
+  SafetyInput input;
+  input.now = now;
+  input.heard = {now, now, now, now, now, now, now};
+  input.vehicle.stamp = now;
+  input.vehicle.armed = true;
+  input.vehicle.mode = VehicleMode::guided;
+  input.vehicle.battery_share = 0.8;
+  input.odometry.status = VehicleOdometryStatus::ok;
+  input.odometry.T_odom_body.translation() = Eigen::Vector3d(1, 2, 3);
+  input.place = {1, 2, 3};
+  input.setpoint = Setpoint{};
+  input.setpoint->position = {1, 2, 3};
+  input.flying = true;
+  input.planning_due = true;
+  return input;
+}
+
+class SafetyTest : public testing::Test {
+ protected:
+  SafetyTest() : safety(config, motion::Geofence(motion::GeofenceConfig{})) {}
+
+  /// Steps for so long with `spoil` at work; the last decision.
+  template <class Spoil>
+  SafetyDecision pass(double seconds, Spoil spoil) {
+    SafetyDecision decision;
+    for (const Time end = now + from_seconds(seconds); now < end; now += kStep) {
+      SafetyInput input = good(now);
+      spoil(input);
+      decision = safety.update(input);
+    }
+    return decision;
+  }
+
+  const SafetyConfig config;
+  Safety safety;
+  Time now = 100 * kNanosecondsPerSecond;
+};
+
+const auto kNothing = [](SafetyInput&) {};
+
+TEST_F(SafetyTest, SaysNothingWhereNothingIsWrong) {
+  EXPECT_EQ(pass(20, kNothing).action, SafetyAction::none);
+  EXPECT_TRUE(safety.findings(good(now)).empty());
+}
+
+struct Silence {
+  Time Heard::*what;
+  Cause cause;
+  double limit_s;
+};
+
+TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
+  const Silence silences[] = {{&Heard::vehicle, Cause::vehicle_silent, config.vehicle_s},
+                              {&Heard::lidar, Cause::lidar_silent, config.lidar_s},
+                              {&Heard::odometry, Cause::odometry_stale, config.odometry_s},
+                              {&Heard::verdict, Cause::checker_silent, config.verdict_s},
+                              {&Heard::occupancy, Cause::occupancy_stale, config.occupancy_s},
+                              {&Heard::mapping, Cause::mapping_stale, config.mapping_s},
+                              {&Heard::planning, Cause::planning_stale, config.planning_s}};
+  for (const Silence& silence : silences) {
+    SCOPED_TRACE(to_string(silence.cause));
+    Safety ladder(config, motion::Geofence(motion::GeofenceConfig{}));
+    SafetyInput input = good(now);
+    input.heard.*silence.what = now - from_seconds(silence.limit_s);
+    EXPECT_EQ(ladder.update(input).action, SafetyAction::none);
+    input.heard.*silence.what -= kStep;
+    const SafetyDecision held = ladder.update(input);
+    EXPECT_EQ(held.action, SafetyAction::hold);
+    EXPECT_EQ(held.cause, silence.cause);
+    if (silence.cause == Cause::odometry_stale) continue;  // that one ends in silence
+    SafetyInput later = good(now + from_seconds(config.land_after_s));
+    later.heard.*silence.what = input.heard.*silence.what;
+    EXPECT_EQ(ladder.update(later).action, SafetyAction::land);
+    EXPECT_EQ(ladder.update(later).cause, silence.cause);
+  }
+}
+
+TEST_F(SafetyTest, SilencesTheSetpointsWhenOdometryIsLost) {
+  const Time last = now;
+  const auto frozen = [last](SafetyInput& input) { input.heard.odometry = last; };
+  EXPECT_EQ(pass(config.odometry_lost_s - 0.1, frozen).action, SafetyAction::hold);
+  EXPECT_EQ(pass(0.2, frozen).action, SafetyAction::silence);
+  const auto lost = [](SafetyInput& in) { in.odometry.status = VehicleOdometryStatus::lost; };
+  EXPECT_EQ(pass(kStep * 1e-9, lost).cause, Cause::odometry_lost);
+}
+
+TEST_F(SafetyTest, EndsAHoldSomeSecondsAfterItsCauseIsGone) {
+  const auto no_verdict = [](SafetyInput& input) { input.heard.verdict -= kNanosecondsPerSecond; };
+  EXPECT_EQ(pass(1, no_verdict).action, SafetyAction::hold);
+  EXPECT_EQ(pass(config.recover_s - 0.1, kNothing).action, SafetyAction::hold);
+  EXPECT_EQ(pass(0.3, kNothing).action, SafetyAction::none);
+}
+
+TEST_F(SafetyTest, ACauseThatComesAndGoesStillLands) {
+  SafetyDecision decision;
+  for (int i = 0; i < 20 && decision.action < SafetyAction::land; ++i) {
+    decision = pass(1, [](SafetyInput& input) { input.heard.verdict = 0; });
+    if (decision.action < SafetyAction::land) decision = pass(1, kNothing);
+  }
+  EXPECT_EQ(decision.action, SafetyAction::land);
+}
+
+TEST_F(SafetyTest, TheMoreSevereWins) {
+  const auto both = [](SafetyInput& input) {
+    input.heard.verdict = 0;
+    input.vehicle.battery_share = 0.05;
+  };
+  EXPECT_EQ(pass(1, both).action, SafetyAction::land);
+  EXPECT_EQ(pass(1, both).cause, Cause::battery_empty);
+}
+
+TEST_F(SafetyTest, ReturnsWithALowBattery) {
+  const auto low = [](SafetyInput& input) { input.vehicle.battery_share = 0.25; };
+  EXPECT_EQ(pass(1, low).action, SafetyAction::return_home);
+  EXPECT_EQ(pass(1, low).cause, Cause::battery_low);
+}
+
+TEST_F(SafetyTest, LandsAfterACollision) {
+  const auto hit = [](SafetyInput& input) { input.vehicle.faults = kCollision; };
+  EXPECT_EQ(pass(1, hit).cause, Cause::collision);
+  EXPECT_EQ(pass(1, hit).action, SafetyAction::land);
+}
+
+TEST_F(SafetyTest, LandsWhenTheFlightControllerComesDownByItself) {
+  const auto descends = [](SafetyInput& input) {
+    input.vehicle.mode = VehicleMode::descend;
+    input.vehicle.faults = kOdometryRejected;
+  };
+  const SafetyDecision decision = pass(1, descends);
+  EXPECT_EQ(decision.action, SafetyAction::land);
+  EXPECT_EQ(decision.text, "the flight controller rejects the odometry");
+}
+
+TEST_F(SafetyTest, HoldsOutsideTheGeofence) {
+  const auto out = [](SafetyInput& input) { input.place = {0, 101, 3}; };
+  EXPECT_EQ(pass(1, out).cause, Cause::outside_geofence);
+  EXPECT_EQ(pass(1, out).action, SafetyAction::hold);
+}
+
+TEST_F(SafetyTest, HoldsWhenTheVehicleDoesNotFollow) {
+  const auto off = [](SafetyInput& input) { input.setpoint->position.x() += 2; };
+  EXPECT_EQ(pass(1, off).cause, Cause::off_course);
+}
+
+TEST_F(SafetyTest, APlaceThatIsNotANumberIsOutsideTheGeofence) {
+  const auto broken = [](SafetyInput& input) { input.place.setConstant(NAN); };
+  EXPECT_EQ(pass(1, broken).action, SafetyAction::hold);
+}
+
+TEST_F(SafetyTest, FindsEverythingThatIsMissingOnTheGround) {
+  SafetyInput input;
+  input.now = now;
+  input.place = Eigen::Vector3d::Zero();
+  const std::vector<Finding> found = safety.findings(input);
+  std::vector<Cause> causes;
+  for (const Finding& finding : found) causes.push_back(finding.cause);
+  for (const Cause cause : {Cause::vehicle_silent, Cause::lidar_silent, Cause::odometry_stale,
+                            Cause::checker_silent, Cause::occupancy_stale, Cause::mapping_stale}) {
+    EXPECT_NE(std::find(causes.begin(), causes.end(), cause), causes.end()) << to_string(cause);
+  }
+  EXPECT_EQ(found.front().text, "no state of the vehicle yet");
+}
+
+TEST_F(SafetyTest, ForgetsItsHoldOnTheGround) {
+  const auto no_verdict = [](SafetyInput& input) { input.heard.verdict = 0; };
+  EXPECT_EQ(pass(1, no_verdict).action, SafetyAction::hold);
+  (void)pass(0.1, [](SafetyInput& input) { input.flying = false; });
+  EXPECT_EQ(pass(0.1, kNothing).action, SafetyAction::none);
+}
+
+}  // namespace
+}  // namespace saker::autonomy
