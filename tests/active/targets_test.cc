@@ -1,0 +1,120 @@
+#include "active/targets.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error.h"
+#include "made_street.h"
+
+namespace saker::active {
+namespace {
+
+using namespace made;
+
+const objects::ClassTable kTable;
+
+TargetList targets_at(const std::vector<objects::Cuboid>& cars) {
+  return TargetList({}, kTable, map_of(cars));
+}
+
+std::string error_of(const objects::ObjectMap& prior, const TargetsConfig& config = {}) {
+  try {
+    const TargetList list(config, kTable, prior);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Targets, AreThePriorsObjectsOfTargetClassesInTheOrderOfTheirIds) {
+  objects::ObjectMap prior;
+  prior.objects = {vehicle(7, car(0, 0)), vehicle(3, car(9, 0)), vehicle(5, car(5, 0))};
+  prior.objects[2].class_id = kTrunk;
+  const TargetList targets({}, kTable, prior);
+  ASSERT_EQ(targets.size(), 2);
+  EXPECT_EQ(targets[0].id, 3);
+  EXPECT_EQ(targets[1].id, 7);
+  EXPECT_EQ(targets.count(TargetStatus::pending), 2);
+}
+
+TEST(Targets, OfAnEmptyPriorAreNone) {
+  TargetList targets({}, kTable, {});
+  targets.associate(map_of({car(0, 0)}));
+  EXPECT_EQ(targets.size(), 0);
+}
+
+TEST(Targets, ExtentIsThePriorsWithAMarginUntilOneIsMapped) {
+  TargetList targets = targets_at({car(10, 0)});
+  EXPECT_NEAR(targets[0].extent.size.x(), 4.4 + 2 * TargetsConfig{}.prior_margin_m, 1e-9);
+  targets.associate(map_of({car(10.8, -0.6, 1.0)}));
+  EXPECT_TRUE(targets[0].mapped());
+  EXPECT_DOUBLE_EQ(targets[0].extent.size.x(), 4.4);
+  EXPECT_DOUBLE_EQ(targets[0].place().x(), 10.8);
+  targets.associate({});
+  EXPECT_FALSE(targets[0].mapped());
+  EXPECT_DOUBLE_EQ(targets[0].place().x(), 10);
+}
+
+TEST(Targets, PriorThatKnowsPlacesOnlyHasTheDefaultSize) {
+  objects::Cuboid place_only = car(10, 0);
+  place_only.size.setConstant(NAN);
+  const TargetList targets = targets_at({place_only});
+  EXPECT_TRUE(targets[0].extent.size.allFinite());
+  EXPECT_GT(targets[0].extent.size.minCoeff(), 1);
+}
+
+TEST(Targets, EachMappedObjectBelongsToOneTargetTheNearest) {
+  TargetList targets = targets_at({car(0, 0), car(2.6, 0), car(20, 0)});
+  objects::ObjectMap map = map_of({car(2.4, 0.3), car(0.2, -0.3), car(60, 0)});
+  map.objects[0].id = 11;
+  map.objects[1].id = 12;
+  targets.associate(map);
+  EXPECT_EQ(targets[0].object_id, 12);
+  EXPECT_EQ(targets[1].object_id, 11);
+  EXPECT_FALSE(targets[2].mapped());
+}
+
+TEST(Targets, AnotherClassAnotherStoreyAndWhatIsNotFiniteDoNotBelong) {
+  TargetList targets = targets_at({car(0, 0)});
+  objects::ObjectMap map = map_of({car(0, 0), car(0, 0), car(0, 0)});
+  map.objects[0].class_id = kTrunk;
+  std::get<objects::Cuboid>(map.objects[1].model).pose.translation().z() += 3.5;
+  std::get<objects::Cuboid>(map.objects[2].model).size.setConstant(NAN);
+  targets.associate(map);
+  EXPECT_FALSE(targets[0].mapped());
+}
+
+TEST(Targets, VisitedOneIsDoneOnceItIsMapped) {
+  TargetList targets = targets_at({car(0, 0), car(20, 0), car(40, 0)});
+  targets.close(0, TargetStatus::visited, "");
+  targets.close(1, TargetStatus::unreachable, "walled in");
+  targets.associate(map_of({car(0, 0), car(20, 0), car(40, 0)}));
+  EXPECT_EQ(targets[0].status, TargetStatus::done);
+  EXPECT_EQ(targets[1].status, TargetStatus::unreachable);
+  EXPECT_EQ(targets[1].reason, "walled in");
+  EXPECT_EQ(targets[2].status, TargetStatus::pending);
+}
+
+TEST(Targets, PriorWithAPlaceThatIsNotFiniteIsRefusedByItsId) {
+  objects::ObjectMap prior = map_of({car(0, 0), car(1, 0)});
+  std::get<objects::Cuboid>(prior.objects[1].model).pose.translation().y() = NAN;
+  EXPECT_NE(error_of(prior).find("object 1"), std::string::npos);
+}
+
+TEST(Targets, PriorWithAnIdTwiceIsRefused) {
+  objects::ObjectMap prior = map_of({car(0, 0), car(9, 0)});
+  prior.objects[1].id = 0;
+  EXPECT_NE(error_of(prior).find("0 occurs twice"), std::string::npos);
+}
+
+TEST(Targets, TooManyAreRefusedWithTheKeyThatAllowsMore) {
+  EXPECT_NE(error_of(map_of(std::vector<objects::Cuboid>(10'000, car(0, 0)))), "");
+  TargetsConfig config;
+  config.most_targets = 1;
+  EXPECT_NE(error_of(map_of({car(0, 0), car(9, 0)}), config).find("most_targets"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace saker::active

@@ -1,0 +1,198 @@
+#include "active/viewpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "core/rng.h"
+#include "made_street.h"
+
+namespace saker::active {
+namespace {
+
+using namespace made;
+using std::numbers::pi;
+
+const FieldOfViewConfig kView;
+const ViewpointConfig kConfig;
+const InGeofence kEverywhere = [](const Eigen::Vector3d&) { return true; };
+
+double elevation_deg(const Eigen::Vector3d& eye, const Eigen::Vector3d& p) {
+  return std::atan2(p.z() - eye.z(), (p - eye).head<2>().norm()) * 180 / pi;
+}
+
+/// By its surface, point for point.
+bool every_point_between_beams(const Eigen::Vector3d& eye, const objects::Cuboid& target) {
+  for (double x = -0.5; x <= 0.5; x += 0.02) {
+    for (double y = -0.5; y <= 0.5; y += 0.02) {
+      for (const double z : {-0.5, 0.5}) {
+        const double elevation =
+            elevation_deg(eye, target.pose * Eigen::Vector3d(x, y, z).cwiseProduct(target.size));
+        if (elevation < kView.lowest_deg || elevation > kView.highest_deg) return false;
+      }
+    }
+  }
+  return true;
+}
+
+TEST(FieldOfView, HoldsATargetWhenItHoldsEachOfItsPoints) {
+  core::Rng rng(1);
+  int seen = 0, near_the_edge = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const objects::Cuboid target = car(0, 0, rng.uniform(-pi, pi));
+    const double distance = rng.uniform(5, 15), bearing = rng.uniform(-pi, pi);
+    const Eigen::Vector3d eye(distance * std::cos(bearing), distance * std::sin(bearing),
+                              rng.uniform(0.5, 6));
+    const bool in_view = in_field_of_view(eye, target, kView, 0);
+    seen += in_view;
+    // The grid of points misses the nearest one by centimetres: let the edge itself be.
+    if (in_field_of_view(eye, target, kView, 0.3) != in_field_of_view(eye, target, kView, -0.3)) {
+      ++near_the_edge;
+    } else {
+      EXPECT_EQ(in_view, every_point_between_beams(eye, target)) << eye.transpose();
+    }
+  }
+  EXPECT_GT(seen, 100);
+  EXPECT_LT(seen, 300);
+  EXPECT_LT(near_the_edge, 60);
+}
+
+TEST(FieldOfView, EndsTooNearAndTooFar) {
+  const objects::Cuboid target = car(0, 0);
+  EXPECT_TRUE(in_field_of_view({8, 0, 1.5}, target, kView, 0));
+  EXPECT_FALSE(in_field_of_view({2.2 + 0.9 * kView.nearest_m, 0, 0.75}, target, kView, 0));
+  EXPECT_FALSE(in_field_of_view({kView.farthest_m + 0.1, 0, 1.5}, target, kView, 0));
+  EXPECT_FALSE(in_field_of_view({0, 0, 3}, target, kView, 0)) << "right above";
+}
+
+TEST(FieldOfView, MarginTakesFromBothEnds) {
+  const objects::Cuboid target = car(0, 0);
+  const double needed = 3 / std::tan(20.5 * pi / 180);  // beyond the long side, 3 m up
+  EXPECT_FALSE(in_field_of_view({0, 0.9 + needed - 0.05, 3}, target, kView, 2));
+  EXPECT_TRUE(in_field_of_view({0, 0.9 + needed + 0.05, 3}, target, kView, 2));
+  EXPECT_TRUE(in_field_of_view({0, 0.9 + needed - 0.05, 3}, target, kView, 1));
+}
+
+TEST(Surroundings, AreUnknownWithoutABlock) {
+  const Surroundings nothing;
+  EXPECT_EQ(nothing.at({0, 0, 0}), occupancy::Cell::unknown);
+  EXPECT_FALSE(nothing.blocked({0, 0, 0}, 5));
+  EXPECT_EQ(visible_share({9, 0, 3}, car(0, 0), nothing, 0.5), 1);
+}
+
+TEST(Surroundings, BlockWithinTheClearanceOnly) {
+  auto grid = free_grid();
+  fill(grid, {10, -5, 0}, {10.5, 5, 6});  // centres at x = 10.25
+  const Surroundings surroundings{&grid, SE3::Identity()};
+  EXPECT_TRUE(surroundings.blocked({9.5, 0.25, 3.25}, 0.9));
+  EXPECT_FALSE(surroundings.blocked({9.2, 0.25, 3.25}, 0.9));
+  EXPECT_FALSE(surroundings.blocked({100, 0, 3}, 0.9)) << "outside the block";
+}
+
+TEST(Surroundings, MoveWithTheCorrectionBetweenWorldAndOdom) {
+  auto grid = free_grid();
+  fill(grid, {10, -5, 0}, {10.5, 5, 6});
+  const SE3 T_odom_world(Eigen::Translation3d(5, 0, 0));
+  const Surroundings surroundings{&grid, T_odom_world};
+  EXPECT_TRUE(surroundings.blocked({5.2, 0, 3}, 0.9));
+  EXPECT_FALSE(surroundings.blocked({10.2, 0, 3}, 0.9));
+  EXPECT_EQ(surroundings.at({5.2, 0, 3}), occupancy::Cell::occupied);
+}
+
+TEST(Visibility, OfATargetInTheOpenIsWholeThoughItsOwnCellsAreOccupied) {
+  auto grid = free_grid();
+  fill(grid, {-2.2, -0.9, 0}, {2.2, 0.9, 1.5});
+  fill(grid, {-30, -30, -1}, {30, 30, 0});  // the ground
+  const Surroundings surroundings{&grid, SE3::Identity()};
+  for (double bearing = 0; bearing < 6; bearing += 0.5) {
+    const Eigen::Vector3d eye(9 * std::cos(bearing), 9 * std::sin(bearing), 3);
+    EXPECT_EQ(visible_share(eye, car(0, 0), surroundings, 0.5), 1) << bearing;
+  }
+}
+
+TEST(Visibility, EndsBehindAWall) {
+  auto grid = free_grid();
+  fill(grid, {4, -10, 0}, {4.5, 10, 4});
+  const Surroundings surroundings{&grid, SE3::Identity()};
+  EXPECT_EQ(visible_share({9, 0, 3}, car(0, 0), surroundings, 0.5), 0);
+  EXPECT_EQ(visible_share({-9, 0, 3}, car(0, 0), surroundings, 0.5), 1);
+}
+
+TEST(Visibility, IsPartialBehindHalfAWall) {
+  auto grid = free_grid();
+  fill(grid, {-10, 4, 0}, {0, 4.5, 4});
+  const Surroundings surroundings{&grid, SE3::Identity()};
+  const double share = visible_share({0.3, 9, 3}, car(0, 0), surroundings, 0.5);
+  EXPECT_GT(share, 0.2);
+  EXPECT_LT(share, 0.8);
+}
+
+TEST(Visibility, IsNotTakenAwayByWhatWasNeverSeen) {
+  auto grid = free_grid();
+  fill(grid, {-30, -30, -1}, {30, 30, 7}, occupancy::Cell::unknown);
+  EXPECT_EQ(visible_share({9, 0, 3}, car(0, 0), {&grid, SE3::Identity()}, 0.5), 1);
+}
+
+TEST(Candidates, StandAroundTheTargetAndLookAtIt) {
+  const objects::Cuboid target = car(3, -2, 0.4);
+  const auto candidates = sample_viewpoints(target, 100, kConfig, kView, {}, kEverywhere);
+  ASSERT_EQ(candidates.size(), static_cast<std::size_t>(kConfig.bearings * kConfig.rings));
+  std::set<int> ids;
+  for (const Candidate& candidate : candidates) {
+    const Viewpoint& viewpoint = candidate.viewpoint;
+    ids.insert(viewpoint.id);
+    EXPECT_NEAR(viewpoint.position.z(), kConfig.height_m, 1e-9);
+    const Eigen::Vector2d ahead(std::cos(viewpoint.yaw), std::sin(viewpoint.yaw));
+    const Eigen::Vector2d to_target = (Eigen::Vector3d(3, -2, 0) - viewpoint.position).head<2>();
+    EXPECT_NEAR(ahead.dot(to_target.normalized()), 1, 1e-9);
+  }
+  EXPECT_EQ(ids.size(), candidates.size());
+  EXPECT_EQ(*ids.begin(), 100);
+}
+
+TEST(Candidates, OfTheFirstRingAreTheNearestThatHaveTheTargetInView) {
+  const objects::Cuboid target = car(0, 0);
+  const auto candidates = sample_viewpoints(target, 0, kConfig, kView, {}, kEverywhere);
+  for (std::size_t i = 0; i < candidates.size(); i += kConfig.rings) {
+    EXPECT_EQ(candidates[i].refusal, Refusal::none);
+    const Eigen::Vector3d& eye = candidates[i].viewpoint.position;
+    EXPECT_TRUE(in_field_of_view(eye, target, kView, kView.margin_deg));
+    const Eigen::Vector3d nearer = eye - 0.3 * Eigen::Vector3d(eye.x(), eye.y(), 0).normalized();
+    EXPECT_FALSE(in_field_of_view(nearer, target, kView, kView.margin_deg));
+  }
+}
+
+TEST(Candidates, EachHasTheReasonOfItsRefusal) {
+  auto grid = free_grid();
+  fill(grid, {4, -10, 0}, {4.5, 10, 6});
+  const Surroundings surroundings{&grid, SE3::Identity()};
+  const InGeofence north = [](const Eigen::Vector3d& p) { return p.y() > -5; };
+  const auto refusal = [&](double x, double y) {
+    Viewpoint viewpoint;
+    viewpoint.position = {x, y, 3};
+    return refusal_of(viewpoint, car(0, 0), kConfig, kView, surroundings, north);
+  };
+  EXPECT_EQ(refusal(0, 9.5), Refusal::none);
+  EXPECT_EQ(refusal(0, 20), Refusal::out_of_view);
+  EXPECT_EQ(refusal(0, -9.5), Refusal::outside_geofence);
+  EXPECT_EQ(refusal(3.9, 9), Refusal::occupied);
+  EXPECT_EQ(refusal(12, 0), Refusal::hidden);
+}
+
+TEST(Candidates, AreKnownFreeOnlyWhereTheBlockSaysSo) {
+  auto grid = free_grid(9.3, 0.3);
+  const auto candidates =
+      sample_viewpoints(car(0, 0), 0, kConfig, kView, {&grid, SE3::Identity()}, kEverywhere);
+  int known = 0;
+  for (const Candidate& candidate : candidates) {
+    const Eigen::Vector3d& p = candidate.viewpoint.position;
+    EXPECT_EQ(candidate.known_free, p.head<2>().cwiseAbs().maxCoeff() < 9.3);
+    known += candidate.known_free;
+  }
+  EXPECT_GT(known, 0);
+  EXPECT_LT(known, static_cast<int>(candidates.size()));
+}
+
+}  // namespace
+}  // namespace saker::active
