@@ -1,5 +1,6 @@
 #include "motion/curve.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

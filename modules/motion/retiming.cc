@@ -132,7 +132,8 @@ Trajectory retimed(const MotionState& start, Time start_time, const Curve& curve
     state.yaw_rate = yaw.yaw_rate;
     trajectory.states.push_back(state);
   }
-  MotionState& last = trajectory.states.back();  // rounding leaves 1e-16
+  trajectory.states.front() = start;  // which it is but for what the differences round
+  MotionState& last = trajectory.states.back();
   last.position = curve.back().position;
   last.velocity.setZero();
   last.acceleration.setZero();
