@@ -3,11 +3,13 @@
 #include "active/active.h"
 #include "autonomy/body_pose.h"
 #include "autonomy/guidance.h"
+#include "autonomy/local_checker.h"
 #include "autonomy/mission.h"
 #include "autonomy/planning.h"
 #include "autonomy/safety.h"
 #include "core/config.h"
 #include "detection/detection.h"
+#include "motion/collision_checker.h"
 #include "motion/motion.h"
 #include "objects/class_table.h"
 #include "odometry/odometry.h"
@@ -60,12 +62,14 @@ struct Config {
   MountConfig mount;
   BodyPoseConfig body_pose;
   motion::MotionConfig motion;
+  motion::CollisionCheckerConfig collision_checker;
   active::ActiveConfig active;
   PlanningConfig planning;
   GuidanceConfig guidance;
   SafetyConfig safety;
   MissionConfig mission;
   LatencyConfig latency;
+  LocalCheckerConfig local_checker;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -78,12 +82,14 @@ struct Config {
     v.group("mount", mount, "where the lidar is on the body: T_body_lidar");
     v.group("body_pose", body_pose, "the pose between scans");
     v.group("motion", motion, "trajectories");
+    v.group("collision_checker", collision_checker, "occupancy and verdicts");
     v.group("active", active, "where to look next");
     v.group("planning", planning, "the step of planning");
     v.group("guidance", guidance, "setpoints");
     v.group("safety", safety, "when to return, hold, land");
     v.group("mission", mission, "phases and their deadlines");
     v.group("latency", latency, "of the stages in lockstep");
+    v.group("local_checker", local_checker, "the collision checker in lockstep");
   }
 };
 

@@ -9,8 +9,8 @@
 #include "autonomy/delayed.h"
 #include "autonomy/lockstep.h"
 #include "autonomy/pipeline.h"
-#include "autonomy/plant.h"
 #include "autonomy/schedule.h"
+#include "autonomy/stepped.h"
 #include "autonomy/supervisor.h"
 #include "autonomy/worker_pool.h"
 #include "core/timings.h"
@@ -27,19 +27,6 @@
 /// runs; when they are taken follows from the stamps alone: the result is the same to the byte for
 /// any number of threads.
 namespace saker::autonomy {
-
-/// A plant whose time is made by its caller.
-class SteppedPlant : public Plant {
- public:
-  [[nodiscard]] virtual Time now() const = 0;
-  virtual void step_to(Time time) = 0;
-};
-
-/// A collision checker on the same time.
-class SteppedChecker : public CollisionCheckerLink {
- public:
-  virtual void step_to(Time time) = 0;
-};
 
 /// Hears what happens, in order, on the driver's thread.
 class MissionObserver {
