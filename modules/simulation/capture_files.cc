@@ -42,18 +42,18 @@ SensorCapture::SensorCapture(const std::filesystem::path& folder, const std::str
   lidar::write_metadata(info_, folder / (name + ".json"));
 }
 
-lidar::Column SensorCapture::column_of(const CastScan& scan, int frame_id, int column,
-                                       Time start) const {
+lidar::Column column_of(const CastScan& scan, const lidar::SensorInfo& info,
+                        const lidar::PacketFormat& format, int frame_id, int column, Time start) {
   lidar::Column out;
-  out.time = start + from_seconds(column * info_.column_period_s());
+  out.time = start + from_seconds(column * info.column_period_s());
   out.frame_id = frame_id & 0xFFFF;
   out.measurement_id = column;
-  out.valid = info_.column_window.contains(column);
+  out.valid = info.column_window.contains(column);
   for (int row = 0; row < scan.rows; ++row) {
     const std::size_t i = static_cast<std::size_t>(row) * scan.columns + column;
     lidar::Pixel pixel;
     pixel.range_mm =
-        format_.representable_mm(static_cast<std::uint32_t>(std::lround(1000 * scan.range_m[i])));
+        format.representable_mm(static_cast<std::uint32_t>(std::lround(1000 * scan.range_m[i])));
     if (pixel.range_mm > 0) {
       pixel.reflectivity = static_cast<std::uint8_t>(std::lround(255 * scan.reflectivity[i]));
       pixel.signal = static_cast<std::uint16_t>(20 + std::lround(900 * scan.reflectivity[i]));
@@ -71,7 +71,7 @@ void SensorCapture::add_packets(const CastScan& scan, int frame_id, Time start, 
     std::vector<lidar::Column> columns;
     bool any = false;
     for (int column = first; column < first + step; ++column) {
-      columns.push_back(column_of(scan, frame_id, column, start));
+      columns.push_back(column_of(scan, info_, format_, frame_id, column, start));
       any = any || columns.back().valid;
     }
     if (!any || rng_.chance(config_.lost_share)) continue;

@@ -15,6 +15,11 @@ namespace saker::simulation {
 /// The sensor that a scenario asks for. Throws Error that names the key.
 [[nodiscard]] lidar::SensorInfo sensor_info(const CaptureConfig& config);
 
+/// A column of a revolution as the sensor sends it; column k was measured at start + k · period.
+[[nodiscard]] lidar::Column column_of(const CastScan& scan, const lidar::SensorInfo& info,
+                                      const lidar::PacketFormat& format, int frame_id, int column,
+                                      Time start);
+
 /// Writes what the sensor sends as a capture (FOLDER/NAME.pcap, metadata in FOLDER/NAME.json):
 /// packets of the window's columns and of the inertial unit in the order of time, some of them
 /// lost, repeated or late as configured.
@@ -42,8 +47,6 @@ class SensorCapture {
     std::vector<std::uint8_t> bytes;
   };
 
-  [[nodiscard]] lidar::Column column_of(const CastScan& scan, int frame_id, int column,
-                                        Time start) const;
   void add_packets(const CastScan& scan, int frame_id, Time start, Ranges& sent);
   void delay_some(std::vector<Datagram>& datagrams);
 

@@ -19,6 +19,8 @@ struct Driver {
 struct FlightWorld {
   BuiltWorld built;
   std::vector<Driver> drivers;
+  Palette palette;
+  Flora flora;
 };
 
 /// A street with a car park beside it, for a flight: all five kinds of cars, trees and lamps along

@@ -84,7 +84,10 @@ FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed) {
   for (int i = 0; i < config.moving_vehicles; ++i) {
     drivers.push_back(add_driver(site, i, config, traffic_rng));
   }
-  return {{std::move(world), std::move(terrain), WorldKind::street, {}}, std::move(drivers)};
+  return {{std::move(world), std::move(terrain), WorldKind::street, {}},
+          std::move(drivers),
+          palette,
+          flora};
 }
 
 }  // namespace saker::simulation

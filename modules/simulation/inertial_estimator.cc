@@ -1,24 +1,33 @@
 #include "simulation/inertial_estimator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/quadrotor.h"
 
 namespace saker::simulation {
+namespace {
+
+constexpr double kFirstLevelling = 0.05;  ///< s
+
+}  // namespace
 
 InertialEstimator::InertialEstimator(const InertialEstimatorConfig& config)
     : config_(core::checked(config, "inertial")) {}
 
 void InertialEstimator::propagate_attitude(const lidar::ImuSample& sample, double dt) {
   const double force = sample.acceleration.norm();
-  if (!has_up_ && force > 0) {
+  const bool trusted = std::abs(force / kStandardGravity - 1) < config_.trusted_g;
+  if (!has_up_ && trusted) {
     R_ = Eigen::Quaterniond::FromTwoVectors(sample.acceleration, Eigen::Vector3d::UnitZ());
     has_up_ = true;
   }
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();
-  if (std::abs(force / kStandardGravity - 1) < config_.trusted_g) {
+  if (trusted) {
+    levelled_s_ += dt;  // at first all readings count alike
+    const double time = std::clamp(levelled_s_, kFirstLevelling, config_.attitude_time_s);
     const Eigen::Vector3d up = R_.row(2);
-    correction = (sample.acceleration / force).cross(up) / config_.attitude_time_s;
+    correction = (sample.acceleration / force).cross(up) / time;
   }
   gyro_bias_ -= dt / config_.bias_time_s * correction;
   angular_velocity_ = sample.angular_velocity - gyro_bias_;

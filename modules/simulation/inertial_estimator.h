@@ -50,6 +50,7 @@ class InertialEstimator {
   InertialEstimatorConfig config_;
   bool has_up_ = false;
   bool has_height_ = false;
+  double levelled_s_ = 0;
   Eigen::Matrix3d R_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();

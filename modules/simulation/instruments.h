@@ -16,7 +16,6 @@ class InertialUnit {
                const Eigen::Matrix3d& R_axes_body, core::Rng rng);
 
   [[nodiscard]] lidar::ImuSample sample(const RigidState& state, Time stamp);
-  [[nodiscard]] double rate_hz() const { return config_.rate_hz; }
 
  private:
   [[nodiscard]] Eigen::Vector3d noise(double sd);

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "simulation/triangle.h"
 
 namespace saker::simulation {
 namespace {
@@ -193,6 +194,59 @@ void RayCaster::cast(std::span<Shot> shots, float far) const {
       read_instance(s.movers[rays[i].hit.instID[0]], rays[i], shots[first + i]);
     }
   }
+}
+
+namespace {
+
+/// A point query under way in one of the two scenes.
+struct Search {
+  const Mesh* mesh = nullptr;           ///< what is not placed
+  std::span<const Instance> instances;  ///< what is: the first is geometry `first_instance`
+  unsigned first_instance = 0;
+  Eigen::Vector3f point;
+  const std::vector<bool>* ignored = nullptr;
+  NearSurface found;
+};
+
+bool consider(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<Search*>(args->userPtr);
+  const bool placed = args->context->instStackSize > 0;
+  const Instance* instance =
+      placed ? &search.instances[args->context->instID[0] - search.first_instance] : nullptr;
+  const Mesh& mesh = placed ? *instance->mesh : *search.mesh;
+  const MaterialId material = mesh.materials[args->primID];
+  if ((*search.ignored)[material]) return false;
+  Eigen::Affine3f T = Eigen::Affine3f::Identity();
+  if (placed) T.matrix() = Eigen::Map<const Eigen::Matrix4f>(args->context->inst2world[0]);
+  const auto& corners = mesh.triangles[args->primID];
+  const Eigen::Vector3f at =
+      closest_on_triangle(search.point, T * mesh.vertices[corners[0]],
+                          T * mesh.vertices[corners[1]], T * mesh.vertices[corners[2]]);
+  const float distance = (at - search.point).norm();
+  if (distance >= args->query->radius) return false;
+  args->query->radius = distance;
+  search.found = {distance, at, material, placed ? instance->object : mesh.objects[args->primID]};
+  return true;
+}
+
+}  // namespace
+
+std::optional<NearSurface> RayCaster::nearest(const Eigen::Vector3f& point, float reach,
+                                              const std::vector<bool>& ignored) const {
+  const Scene& s = *scene_;
+  RTCPointQuery query{point.x(), point.y(), point.z(), 0, reach};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  Search search{&s.world->mesh, s.placed, 1, point, &ignored, {}};
+  bool found = rtcPointQuery(s.still, &query, &context, consider, &search);
+  if (!s.movers.empty()) {
+    rtcInitPointQueryContext(&context);
+    search.instances = s.movers;
+    search.first_instance = 0;
+    found = rtcPointQuery(s.moving, &query, &context, consider, &search) || found;
+  }
+  if (!found) return std::nullopt;
+  return search.found;
 }
 
 }  // namespace saker::simulation

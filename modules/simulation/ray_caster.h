@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "simulation/world.h"
@@ -19,6 +20,14 @@ struct Shot {
   bool hit = false;
 };
 
+/// A surface near a point.
+struct NearSurface {
+  float distance = 0;                               ///< m
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< of it, the nearest one; world
+  MaterialId material = 0;
+  ObjectId object = 0;
+};
+
 /// The world as Embree's bounding volume hierarchy (Wald et al., "Embree", SIGGRAPH 2014).
 /// Prototypes are instanced. Refers to `world`, which has to outlive it and must not change.
 class RayCaster {
@@ -33,6 +42,11 @@ class RayCaster {
   /// Fills in what each ray meets within `far` metres. Rays in an order in which neighbours run
   /// alike are fastest.
   void cast(std::span<Shot> shots, float far) const;
+
+  /// The nearest triangle within `reach` metres of a point, each leaf of a crown counts;
+  /// `ignored`: by material.
+  [[nodiscard]] std::optional<NearSurface> nearest(const Eigen::Vector3f& point, float reach,
+                                                   const std::vector<bool>& ignored) const;
 
  private:
   struct Scene;

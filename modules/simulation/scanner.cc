@@ -6,7 +6,6 @@
 namespace saker::simulation {
 namespace {
 
-constexpr int kColumnsAtOnce = 16;
 constexpr int kMostSurfaces = 6;  ///< that a beam may pass
 
 /// Share of the light that comes back from where it met the surface: diffuse, and a narrow
@@ -22,19 +21,6 @@ double returned_share(const Material& m, double cosine) {
 double mirrored_away(const Material& m, double cosine) {
   const double grazing = 1 - cosine;
   return std::min(1.0, std::pow(m.gloss, 6) * (0.1 + grazing) + std::pow(m.gloss, 60));
-}
-
-CastScan empty_scan(int rows, int columns) {
-  CastScan scan;
-  scan.rows = rows;
-  scan.columns = columns;
-  const std::size_t size = static_cast<std::size_t>(rows) * columns;
-  scan.range_m.assign(size, 0);
-  scan.points.assign(size, Eigen::Vector3f::Constant(NAN));
-  scan.reflectivity.assign(size, 0);
-  scan.labels.assign(size, 0);
-  scan.objects.assign(size, 0);
-  return scan;
 }
 
 }  // namespace
@@ -141,23 +127,42 @@ void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, Cas
   scan.objects[i] = shot.object;
 }
 
+CastScan Scanner::empty_scan() const {
+  CastScan scan;
+  scan.rows = beams_.rows;
+  scan.columns = beams_.columns;
+  const std::size_t size = beams_.directions.size();
+  scan.range_m.assign(size, 0);
+  scan.points.assign(size, Eigen::Vector3f::Constant(NAN));
+  scan.reflectivity.assign(size, 0);
+  scan.labels.assign(size, 0);
+  scan.objects.assign(size, 0);
+  return scan;
+}
+
+core::Rng Scanner::rng_of(std::uint64_t scan_index) const { return rng_.fork(scan_index + 1); }
+
+void Scanner::cast_block(int first_column, const PoseOfColumn& T_world_lidar, core::Rng& rng,
+                         CastScan& scan) const {
+  const int end = std::min(first_column + kColumnsAtOnce, beams_.columns);
+  Job job;
+  for (int column = first_column; column < end; ++column)
+    aim(column, T_world_lidar(column), rng, job.shots);
+  trace(job, rng);
+  mix_edges(job, rng);
+  std::size_t k = 0;
+  for (int column = first_column; column < end; ++column) {
+    for (int row = 0; row < beams_.rows; ++row) receive(job.shots[k++], row, column, rng, scan);
+  }
+}
+
 CastScan Scanner::cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index,
                        const BeforeColumn& before) const {
-  core::Rng rng = rng_.fork(scan_index + 1);
-  CastScan scan = empty_scan(beams_.rows, beams_.columns);
-  Job job;
+  core::Rng rng = rng_of(scan_index);
+  CastScan scan = empty_scan();
   for (int first = 0; first < beams_.columns; first += kColumnsAtOnce) {
-    const int end = std::min(first + kColumnsAtOnce, beams_.columns);
-    job.shots.clear();
     if (before) before(first);
-    for (int column = first; column < end; ++column)
-      aim(column, T_world_lidar(column), rng, job.shots);
-    trace(job, rng);
-    mix_edges(job, rng);
-    std::size_t k = 0;
-    for (int column = first; column < end; ++column) {
-      for (int row = 0; row < beams_.rows; ++row) receive(job.shots[k++], row, column, rng, scan);
-    }
+    cast_block(first, T_world_lidar, rng, scan);
   }
   return scan;
 }

@@ -71,6 +71,15 @@ class Scanner {
   [[nodiscard]] CastScan cast(const PoseOfColumn& T_world_lidar, std::uint64_t scan_index,
                               const BeforeColumn& before = nullptr) const;
 
+  static constexpr int kColumnsAtOnce = 16;
+
+  /// The same in blocks of `kColumnsAtOnce` columns, for a world that moves meanwhile: all blocks
+  /// of a scan in their order, with its `rng_of`, into its `empty_scan`.
+  void cast_block(int first_column, const PoseOfColumn& T_world_lidar, core::Rng& rng,
+                  CastScan& scan) const;
+  [[nodiscard]] CastScan empty_scan() const;
+  [[nodiscard]] core::Rng rng_of(std::uint64_t scan_index) const;
+
   [[nodiscard]] const BeamTable& beams() const { return beams_; }
 
  private:

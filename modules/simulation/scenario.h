@@ -1,15 +1,16 @@
 #pragma once
 
 #include "simulation/layout.h"
+#include "simulation/mission_config.h"
 #include "simulation/scanner.h"
 #include "simulation/sensor_config.h"
 
 namespace saker::simulation {
 
-enum class ScenarioKind { training, flight };
+enum class ScenarioKind { training, flight, mission };
 
 [[nodiscard]] inline std::vector<std::string> enum_names(ScenarioKind) {
-  return {"training", "flight"};
+  return {"training", "flight", "mission"};
 }
 
 /// Many small worlds, a few scans of each from random places: what the network learns from.
@@ -71,12 +72,17 @@ struct Scenario {
   ScenarioKind kind = ScenarioKind::training;
   TrainingConfig training;
   FlightConfig flight;
+  MissionConfig mission;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("kind", kind, "", "training: scans of many worlds; flight: one through one world");
+    v.field(
+        "kind", kind, "",
+        "training: scans of many worlds; flight: one through one world; mission: a vehicle to be "
+        "flown");
     v.group("training", training, "many worlds");
     v.group("flight", flight, "one flight");
+    v.group("mission", mission, "a vehicle in a world");
   }
 };
 

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/flight_controller.h"
+#include "simulation/instruments.h"
+#include "simulation/scanner.h"
+#include "simulation/sensor_config.h"
+#include "simulation/wind.h"
+
+namespace saker::simulation {
+
+/// What happens on the way, for tests.
+enum class ScenarioEventKind {
+  obstacle,         ///< a wall stands in the way from one moment to the next
+  lidar_stop,       ///< nothing comes from the sensor any more, its inertial unit included
+  odometry_stop,    ///< none reaches the flight controller any more
+  odometry_freeze,  ///< it gets the last pose again and again, with new stamps
+  gust,
+};
+
+[[nodiscard]] inline std::vector<std::string> enum_names(ScenarioEventKind) {
+  return {"obstacle", "lidar_stop", "odometry_stop", "odometry_freeze", "gust"};
+}
+
+struct ScenarioEvent {
+  ScenarioEventKind kind = ScenarioEventKind::obstacle;
+  double at_s = 10;
+  double ahead_m = 4;
+  double x_m = 0;
+  double y_m = 0;
+  double width_m = 3;
+  double height_m = 6;
+  double gust_mps = 5;
+  double towards_deg = 0;
+  double gust_s = 2;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("kind", kind, "", "obstacle, lidar_stop, odometry_stop, odometry_freeze or gust");
+    v.field("at_s", at_s, {0, 7200}, "s", "after take-off");
+    v.field("ahead_m", ahead_m, {0, 100}, "m",
+            "obstacle: so far in the direction of flight, across it; 0: at x_m, y_m");
+    v.field("x_m", x_m, {-1000, 1000}, "m", "obstacle: its place in `world`");
+    v.field("y_m", y_m, {-1000, 1000}, "m", "obstacle: its place in `world`");
+    v.field("width_m", width_m, {0.1, 50}, "m", "obstacle: across the direction of flight");
+    v.field("height_m", height_m, {0.1, 50}, "m", "obstacle: above the take-off point");
+    v.field("gust_mps", gust_mps, {0, 30}, "m/s", "gust: on top of the wind");
+    v.field("towards_deg", towards_deg, {-360, 360}, "°", "gust: where it blows to, in `world`");
+    v.field("gust_s", gust_s, {0, 600}, "s", "gust: how long");
+  }
+};
+
+/// The place of the lidar on the body, as the executive's `mount` says it.
+struct LidarMountConfig {
+  std::vector<double> position_m = {0, 0, 0.1};
+  std::vector<double> rotation_deg = {0, 0, 0};
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("position_m", position_m, {-5, 5}, "m", "of the lidar's origin in body: x, y, z");
+    v.field("rotation_deg", rotation_deg, {-180, 180}, "°",
+            "roll, pitch, yaw of the lidar in body: about z, then y, then x");
+  }
+};
+
+/// Throws Error when there are not three numbers each.
+[[nodiscard]] SE3 lidar_mount(const LidarMountConfig& config);
+
+/// The street with its car park, and what is in it.
+struct MissionSiteConfig {
+  double street_m = 80;
+  double parked_share = 0.35;
+  int targets = 8;
+  int obstacles = 0;
+  int moving_vehicles = 0;
+  double prior_sd_m = 1.0;
+  double fence_margin_m = 2;
+  double fence_height_m = 12;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("street_m", street_m, {80, 600}, "m", "length of the world");
+    v.field("parked_share", parked_share, {0, 1}, "", "of the parking places that are taken");
+    v.field("targets", targets, {1, 100}, "",
+            "vehicles of the prior map: those nearest to take-off");
+    v.field("obstacles", obstacles, {0, 40}, "",
+            "posts, walls and hedges, each between two targets; higher than one flies");
+    v.field("moving_vehicles", moving_vehicles, {0, 20}, "", "that drive up and down the street");
+    v.field("prior_sd_m", prior_sd_m, {0, 20}, "m",
+            "error of the prior map's places, along x and y each");
+    v.field("fence_margin_m", fence_margin_m, {0, 100}, "m",
+            "of the geofence about targets and take-off");
+    v.field("fence_height_m", fence_height_m, {1, 200}, "m", "of the geofence over the take-off");
+  }
+};
+
+/// A vehicle in a world, to be flown by somebody else.
+struct MissionConfig {
+  MissionSiteConfig site;
+  WindConfig wind;
+  CaptureConfig capture;
+  double latency_s = 0.002;
+  LidarMountConfig mount;
+  ImuConfig imu;
+  ReceiverConfig receiver;
+  AirframeConfig airframe;
+  ImuConfig controller_imu{.rate_hz = 500};
+  BarometerConfig barometer;
+  BatteryConfig battery;
+  FlightControllerConfig controller;
+  std::vector<ScenarioEvent> events;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.group("site", site, "the world");
+    v.group("wind", wind, "over all of it");
+    v.group("capture", capture, "the lidar and its packets");
+    v.field("latency_s", latency_s, {0, 1}, "s", "from a packet's last column to its arrival");
+    v.group("mount", mount, "where the lidar is on the body: T_body_lidar");
+    v.group("imu", imu, "the lidar's inertial unit");
+    v.group("receiver", receiver, "how the lidar answers");
+    v.group("airframe", airframe, "the vehicle");
+    v.group("controller_imu", controller_imu, "the flight controller's inertial unit");
+    v.group("barometer", barometer, "the flight controller's");
+    v.group("battery", battery, "of the vehicle");
+    v.group("controller", controller, "the flight controller");
+    v.list("events", events, "what happens on the way");
+  }
+};
+
+}  // namespace saker::simulation

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "objects/object_map.h"
+#include "simulation/flight.h"
+#include "simulation/mission_config.h"
+
+namespace saker::simulation {
+
+/// Where the vehicle may fly, in `world`: a box, as the geofence's polygon and heights.
+struct MissionFence {
+  std::vector<double> polygon_m;  ///< corners x1, y1, x2, y2, …
+  double lowest_m = NAN;          ///< of the body's centre over the take-off point
+  double highest_m = NAN;
+};
+
+/// A street with a car park beside it, a free place to take off from in the car park's aisle, and
+/// what is said beforehand of the targets. `world` is the levelled frame of the body where it
+/// stands.
+struct MissionWorld {
+  FlightWorld flight;
+  SE3 T_sim_world = SE3::Identity();
+  objects::ObjectMap prior;           ///< in `world`: the targets, roughly
+  std::vector<std::size_t> inserted;  ///< movers that events bring in, under the ground till then
+  MissionFence fence;
+
+  [[nodiscard]] const World& world() const { return flight.built.world; }
+};
+
+/// A function of config and seed. Throws Error where the site has no room for what is asked.
+[[nodiscard]] MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed);
+
+/// Vehicles on their way, `t` seconds after the start: up and down the street again and again.
+void drive(const FlightWorld& flight, double t, RayCaster& caster);
+
+}  // namespace saker::simulation

@@ -1,0 +1,107 @@
+#include "simulation/mission_world.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "simulation/collision.h"
+#include "simulation/truth.h"
+
+namespace saker::simulation {
+namespace {
+
+std::vector<int> no_hits(const World& world) {
+  return std::vector<int>(world.objects.size() + 1, 0);
+}
+
+TEST(MissionWorld, ThePriorHoldsTheTargetsNearTheirTruePlaces) {
+  MissionConfig config;
+  config.site.prior_sd_m = 0.5;
+  const MissionWorld site = build_mission_world(config, 1);
+  EXPECT_EQ(site.prior.objects.size(), 8U);
+  const objects::ObjectMap truth =
+      truth_map(site.world(), site.T_sim_world.inverse(), no_hits(site.world()));
+  double sum = 0;
+  for (const objects::MapObject& rough : site.prior.objects) {
+    double least = 1e9;
+    for (const objects::MapObject& object : truth.objects) {
+      if (object.class_id != rough.class_id) continue;
+      const Eigen::Vector3d apart = objects::place(object.model) - objects::place(rough.model);
+      least = std::min(least, apart.head<2>().norm());
+    }
+    EXPECT_LT(least, 2.0);
+    sum += least;
+  }
+  EXPECT_GT(sum / 8, 0.1);
+}
+
+TEST(MissionWorld, TheTakeoffIsFreeAndStandsOnTheGround) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const MissionConfig config;
+    const MissionWorld site = build_mission_world(config, seed);
+    const RayCaster caster(site.world());
+    CollisionMonitor contacts(caster, site.world(), config.airframe.radius_m);
+    for (double z = 0; z < 6; z += 0.5)
+      contacts.check(site.T_sim_world.translation() + Eigen::Vector3d(0, 0, z));
+    EXPECT_EQ(contacts.collisions(), 0);
+    EXPECT_GT(contacts.min_clearance(), 1.0);
+    std::vector<Shot> down(1);
+    down[0].origin = site.T_sim_world.translation().cast<float>();
+    down[0].direction = -Eigen::Vector3f::UnitZ();
+    caster.cast(down, 10);
+    EXPECT_TRUE(down[0].hit);
+    EXPECT_NEAR(down[0].distance, config.airframe.leg_m, 0.03);
+  }
+}
+
+TEST(MissionWorld, ObstaclesStandBetweenTheTargetsAndPostsAreInTheTruth) {
+  MissionConfig config;
+  const MissionWorld without = build_mission_world(config, 2);
+  config.site.obstacles = 6;
+  const MissionWorld with = build_mission_world(config, 2);
+  EXPECT_TRUE(with.T_sim_world.isApprox(without.T_sim_world));
+  EXPECT_EQ(with.world().objects.size(), without.world().objects.size() + 2);
+  EXPECT_GT(with.world().placements.size(), without.world().placements.size());
+  EXPECT_GT(with.world().mesh.triangles.size(), without.world().mesh.triangles.size());
+}
+
+TEST(MissionWorld, TheSameSeedGivesTheSameWorldAndAnotherSeedAnother) {
+  const MissionConfig config;
+  const MissionWorld a = build_mission_world(config, 3);
+  const MissionWorld b = build_mission_world(config, 3);
+  const MissionWorld c = build_mission_world(config, 4);
+  EXPECT_EQ(a.T_sim_world.matrix(), b.T_sim_world.matrix());
+  EXPECT_EQ(a.world().mesh.vertices, b.world().mesh.vertices);
+  EXPECT_NE(a.T_sim_world.matrix(), c.T_sim_world.matrix());
+}
+
+TEST(MissionWorld, MoreTargetsThanVehiclesAreRefusedByName) {
+  MissionConfig config;
+  config.site.targets = 90;
+  try {
+    (void)build_mission_world(config, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("mission.site.targets"), std::string::npos);
+  }
+}
+
+TEST(MissionWorld, TheFenceHoldsAllTargets) {
+  const MissionWorld site = build_mission_world({}, 5);
+  for (const objects::MapObject& target : site.prior.objects) {
+    const Eigen::Vector3d p = objects::place(target.model);
+    EXPECT_GT(p.x(), site.fence.polygon_m[0] + 5);
+    EXPECT_LT(p.x(), site.fence.polygon_m[4] - 5);
+    EXPECT_GT(p.y(), site.fence.polygon_m[1] + 5);
+    EXPECT_LT(p.y(), site.fence.polygon_m[5] - 5);
+  }
+}
+
+TEST(LidarMount, TurnsAboutZThenYThenX) {
+  const SE3 T = lidar_mount({{1, 2, 3}, {90, 0, 90}});
+  EXPECT_LT((T * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);
+  EXPECT_LT((T * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(2, 2, 3)).norm(), 1e-12);
+  EXPECT_THROW((void)lidar_mount({{1, 2}, {0, 0, 0}}), Error);
+}
+
+}  // namespace
+}  // namespace saker::simulation
