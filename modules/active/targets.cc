@@ -35,21 +35,21 @@ std::string name_of(const MapObject& object) {
   return "prior map, object " + std::to_string(object.id) + ": ";
 }
 
-/// A prior knows the place roughly and the size perhaps; what it does not know is the default's.
+/// A prior knows the place roughly, the size perhaps and the heading not at all: a square that
+/// holds the target however it is turned about z, in steps of a right angle.
 Cuboid prior_extent(const MapObject& object, const TargetsConfig& config) {
   Cuboid extent = cuboid_of(object.model);
+  extent.pose.linear().setIdentity();
   if (!objects::place(object.model).allFinite()) {
     throw Error(name_of(object) + "its place is not finite, expected three numbers");
   }
   const Eigen::Vector3d size = default_size(config);
-  if (!extent.pose.matrix().allFinite()) {
-    extent.pose = SE3(Eigen::Translation3d(objects::place(object.model)));
-  }
+  if (!extent.pose.matrix().allFinite()) extent.pose.translation() = objects::place(object.model);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(extent.size[axis] > 0 && std::isfinite(extent.size[axis])))
       extent.size[axis] = size[axis];
   }
-  extent.size.head<2>().array() += 2 * config.prior_margin_m;
+  extent.size.head<2>().setConstant(extent.size.head<2>().maxCoeff() + 2 * config.prior_margin_m);
   return extent;
 }
 

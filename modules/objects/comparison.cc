@@ -156,6 +156,7 @@ std::vector<ClassComparison> compare(const ObjectMap& mapped, const ObjectMap& t
     result.shape = table[id].shape;
     if (result.shape != Shape::cuboid && result.shape != Shape::cylinder) continue;
     const auto pairs = paired(of_class(mapped, id), of_class(truth, id), options, result);
+    for (const Pair& pair : pairs) result.pairs.push_back({pair.mapped->id, pair.truth->id});
     add_errors(pairs, kPlace, result);
     if (result.shape == Shape::cuboid) {
       add_errors(pairs, kCuboid, result);

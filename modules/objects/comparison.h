@@ -22,6 +22,11 @@ struct ErrorFigures {
   double mean = 0, standard_deviation = 0, mean_absolute = 0;  ///< NaN of too few
 };
 
+/// Ids of a mapped object and of the true one that it is.
+struct FoundPair {
+  int mapped = -1, truth = -1;
+};
+
 struct ClassComparison {
   std::string name;
   Shape shape = Shape::none;
@@ -33,6 +38,7 @@ struct ClassComparison {
   int duplicates = 0;   ///< mapped, within the gate of a true one that another is paired with
   int front_right = 0;  ///< found cuboids whose front is in front
   std::vector<ErrorFigures> errors;
+  std::vector<FoundPair> pairs;  ///< that were found, in the order of the mapped ids
 
   // Cuboids: whether size is measured or merely guessed. NaN below two different lengths.
   double length_slope = 0;  ///< of mapped on true length: 1 measured, 0 guessed

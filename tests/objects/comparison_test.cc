@@ -117,5 +117,16 @@ TEST(Comparison, TruthThatWasHardlyHitDoesNotCountEitherWay) {
   }
 }
 
+TEST(Comparison, NamesThePairsThatItFound) {
+  const ObjectMap truth = map_of({car(1, 0, 0), car(2, 5, 0), car(3, 50, 0)});
+  const ObjectMap mapped = map_of({car(7, 5.3, 0), car(8, 0.2, 0), car(9, 80, 0)});
+  const auto pairs = of(compare(mapped, truth, ClassTable{}, {}), "vehicle").pairs;
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].mapped, 7);
+  EXPECT_EQ(pairs[0].truth, 2);
+  EXPECT_EQ(pairs[1].mapped, 8);
+  EXPECT_EQ(pairs[1].truth, 1);
+}
+
 }  // namespace
 }  // namespace saker::objects
