@@ -7,6 +7,7 @@
 #include "autonomy/mission.h"
 #include "autonomy/planning.h"
 #include "autonomy/safety.h"
+#include "autonomy/standstill.h"
 #include "core/config.h"
 #include "detection/detection.h"
 #include "motion/collision_checker.h"
@@ -60,6 +61,7 @@ struct Config {
   slam::SlamConfig slam;
   RateConfig rates;
   MountConfig mount;
+  StandstillConfig standstill;
   BodyPoseConfig body_pose;
   motion::MotionConfig motion;
   motion::CollisionCheckerConfig collision_checker;
@@ -80,6 +82,7 @@ struct Config {
     v.group("slam", slam, "object SLAM");
     v.group("rates", rates, "how often the stages run");
     v.group("mount", mount, "where the lidar is on the body: T_body_lidar");
+    v.group("standstill", standstill, "when odometry begins in flight");
     v.group("body_pose", body_pose, "the pose between scans");
     v.group("motion", motion, "trajectories");
     v.group("collision_checker", collision_checker, "occupancy and verdicts");

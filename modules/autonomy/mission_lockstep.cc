@@ -23,7 +23,7 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       timings_(timings),
       plant_(plant),
       checker_(checker),
-      ingestion_(config.odometry, sensor, mount_pose(config.mount)),
+      ingestion_(config.odometry, config.standstill, sensor, mount_pose(config.mount)),
       body_pose_(config.body_pose, mount_pose(config.mount)),
       window_(config.detection.window_s),
       mapping_(config.detection, config.slam, config.objects),
@@ -89,11 +89,11 @@ void MissionLockstep::receive(Time now) {
 
 void MissionLockstep::ingest(Time now) {
   if (auto frame = ingestion_.take_newest()) {
-    heard_.lidar = frame->scan.stamp;
     scans_.push(after(now, config_.latency.odometry_s), timings_.time("odometry", [&] {
       return ingestion_.register_scan(std::move(*frame));
     }));
   }
+  heard_.lidar = ingestion_.newest_stamp();
   while (const auto scan = scans_.take(now)) take_scan(*scan, now);
 }
 

@@ -1,6 +1,10 @@
 #include "autonomy/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "core/error.h"
 
 namespace saker::autonomy {
 namespace {
@@ -20,9 +24,17 @@ SE3 to_start_frame(const SE3& T_frame_body) {
 
 }  // namespace
 
-Ingestion::Ingestion(const odometry::OdometryConfig& config, const lidar::SensorInfo& info,
-                     const SE3& T_body_lidar)
-    : stream_(info), odometry_(config), T_body_lidar_(T_body_lidar) {}
+Ingestion::Ingestion(const odometry::OdometryConfig& config, const StandstillConfig& standstill,
+                     const lidar::SensorInfo& info, const SE3& T_body_lidar)
+    : stream_(info),
+      standstill_(standstill),
+      open_beams_(info),
+      odometry_(config),
+      T_body_lidar_(T_body_lidar) {
+  if (config.max_range_m < OpenBeams::kOpen_m) return;
+  throw Error(fmt::format("odometry.max_range_m: {:g}, expected less than {:g} in flight",
+                          config.max_range_m, OpenBeams::kOpen_m));
+}
 
 std::optional<lidar::Frame> Ingestion::take_newest() {
   std::optional<lidar::Frame> newest;
@@ -33,14 +45,23 @@ std::optional<lidar::Frame> Ingestion::take_newest() {
     }
     newest = std::move(item->frame);
   }
+  if (!newest) return std::nullopt;
+  newest_stamp_ = newest->scan.stamp;
+  if (stood_) return newest;
+  standstill_.add(newest->imu);
+  stood_ = standstill_.reached();
+  if (!stood_) return std::nullopt;
+  newest->imu = standstill_.samples();
   return newest;
 }
 
 IngestedScan Ingestion::register_scan(lidar::Frame frame) {
   IngestedScan result;
   result.name = std::move(frame.name);
+  lidar::Scan opened = frame.scan;
+  opened.points = open_beams_.added_to(frame.scan);
   result.scan = std::make_shared<const lidar::Scan>(std::move(frame.scan));
-  odometry::OdometryEstimate estimate = odometry_.register_scan(*result.scan, frame.imu);
+  odometry::OdometryEstimate estimate = odometry_.register_scan(opened, frame.imu);
   if (!T_start_odometry_) {
     T_start_odometry_ = to_start_frame(estimate.T_odom_lidar * T_body_lidar_.inverse());
   }

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/open_beams.h"
 #include "autonomy/plant.h"
+#include "autonomy/standstill.h"
 #include "detection/detection.h"
 #include "lidar/ouster_stream.h"
 #include "objects/object_map.h"
@@ -30,29 +32,34 @@ struct IngestedScan {
 };
 
 /// Packets → scans → poses. The vehicle's `odom` has its origin at the body's place at the first
-/// scan, x to the body's heading, z up.
+/// scan after it stood still, x to the body's heading, z up; scans before that are not registered.
 class Ingestion {
  public:
   /// Throws Error on an invalid value.
-  Ingestion(const odometry::OdometryConfig& config, const lidar::SensorInfo& info,
-            const SE3& T_body_lidar);
+  Ingestion(const odometry::OdometryConfig& config, const StandstillConfig& standstill,
+            const lidar::SensorInfo& info, const SE3& T_body_lidar);
 
   /// A UDP payload, lidar or inertial; any bytes are allowed.
   void add(std::span<const std::uint8_t> payload) { stream_.add(payload); }
 
-  /// The newest whole scan; older ones that wait are dropped and counted.
+  /// The newest whole scan that is to be registered; older ones that wait are dropped and counted.
   [[nodiscard]] std::optional<lidar::Frame> take_newest();
 
   [[nodiscard]] IngestedScan register_scan(lidar::Frame frame);
 
+  [[nodiscard]] Time newest_stamp() const { return newest_stamp_; }  ///< of a whole scan; 0: none
   [[nodiscard]] lidar::SourceCounters counters() const { return stream_.counters(); }
   [[nodiscard]] int dropped_scans() const { return dropped_; }
 
  private:
   lidar::OusterStream stream_;
+  Standstill standstill_;
+  bool stood_ = false;
+  OpenBeams open_beams_;
   odometry::Odometry odometry_;
   SE3 T_body_lidar_;
   std::optional<SE3> T_start_odometry_;  // from odometry's own frame to the vehicle's `odom`
+  Time newest_stamp_ = 0;
   int dropped_ = 0;
 };
 
