@@ -1,0 +1,53 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "bus/presence.h"
+#include "collision_checker/checker_process.h"
+#include "core/config_io.h"
+#include "core/error.h"
+#include "process/process.h"
+
+namespace saker::flight {
+namespace {
+
+using Steady = CheckerProcess::Steady;
+
+/// One thread: waits for messages until something is due, works, says.
+void serve(Bus& bus, Presence& presence, CheckerProcess& checker) {
+  Steady::time_point next_announcement = Steady::now();
+  while (stop_requests() == 0) {
+    const auto until = std::min(checker.next_due(), next_announcement);
+    const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until - Steady::now());
+    if (bus.handle(std::max(wait, std::chrono::milliseconds{0})) < 0)
+      throw Error("the LCM network is gone");
+    checker.step(Steady::now());
+    if (Steady::now() < next_announcement) continue;
+    presence.announce();
+    next_announcement = Steady::now() + Presence::kPeriod;
+  }
+}
+
+int run(const ProcessOptions& options) {
+  const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
+  Bus bus(config.bus, options.robot);
+  Presence presence(bus, "saker-collision-checker");
+  presence.claim();
+  CheckerProcess checker(config, bus);
+  spdlog::info("listens as {}", options.robot);
+  serve(bus, presence, checker);
+  spdlog::info("ends as asked");
+  return 0;
+}
+
+}  // namespace
+}  // namespace saker::flight
+
+int main(int argc, char** argv) {
+  return saker::flight::run_program(
+      {.name = "saker-collision-checker",
+       .does = "Keeps the occupancy map of one robot and says how far its committed trajectory may "
+               "be flown.",
+       .run = saker::flight::run},
+      argc, argv);
+}

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "saker/loop_health_t.hpp"
+
+namespace saker::flight {
+
+/// Times one loop of a process for `_HEALTH`. Used by the loop's own thread.
+class LoopMeter {
+ public:
+  using Steady = std::chrono::steady_clock;
+
+  /// \param miss_ms  a run that begins later than this after its deadline is a miss
+  explicit LoopMeter(std::string name, double miss_ms = 5)
+      : name_(std::move(name)), miss_ms_(miss_ms) {}
+
+  /// One run of the loop; it ends with this object.
+  class Run {
+   public:
+    explicit Run(LoopMeter& meter) : meter_(meter) {}
+    Run(const Run&) = delete;
+    ~Run() { meter_.ran(Steady::now() - begin_, thread_seconds() - begin_cpu_s_); }
+
+   private:
+    LoopMeter& meter_;
+    const Steady::time_point begin_ = Steady::now();
+    const double begin_cpu_s_ = thread_seconds();
+  };
+
+  /// How long after its deadline a run began, where the loop has deadlines.
+  void began_late(Steady::duration lateness);
+
+  /// What happened since the last call; counts are since the start.
+  /// \param age_ms of the newest input; NaN: nothing yet
+  [[nodiscard]] loop_health_t take_period(Steady::duration period, double age_ms, long drops);
+
+ private:
+  [[nodiscard]] static double thread_seconds();
+  void ran(Steady::duration took, double cpu_s);
+
+  std::string name_;
+  double miss_ms_;
+  int misses_ = 0;
+  double worst_lateness_ms_ = std::numeric_limits<double>::quiet_NaN();
+  double cpu_s_ = 0;
+  std::vector<double> took_ms_;
+};
+
+}  // namespace saker::flight

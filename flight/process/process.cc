@@ -1,0 +1,70 @@
+#include "process/process.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+
+namespace saker::flight {
+namespace {
+
+constexpr int kInvalid = 2;  // usage, input or configuration
+
+std::atomic<int> requests = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // what a signal's handler may touch
+
+void ready_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { ++requests; };
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+void ready_log(const std::string& name, bool verbose) {
+  auto logger = std::make_shared<spdlog::logger>(
+      name, std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
+  logger->set_pattern("%H:%M:%S.%e %n %^%l%$ %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+int refuse(const std::string& name, const std::string& what) {
+  std::cerr << name << ": " << what << std::endl;
+  return kInvalid;
+}
+
+}  // namespace
+
+int stop_requests() { return requests; }
+
+int run_program(const Program& program, int argc, const char* const* argv) {
+  ProcessOptions options;
+  CLI::App app(program.does, program.name);
+  app.add_option("--robot", options.robot, "name of the robot, first part of its channels")
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_option("--config", options.config_file, "configuration file (YAML), over the defaults")
+      ->type_name("FILE");
+  app.add_option("--set", options.settings, "overrides one key of the configuration; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("-v,--verbose", options.verbose, "log debug lines too");
+  program.add_options(app);
+  app.footer("Example: " + program.name + " --robot R1");
+  try {
+    app.parse(argc, argv);
+    ready_signals();
+    ready_log(program.name, options.verbose);
+    return program.run(options);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return refuse(program.name, std::string(error.what()) + " (see --help)");
+  } catch (const std::exception& error) {
+    return refuse(program.name, error.what());
+  }
+}
+
+}  // namespace saker::flight

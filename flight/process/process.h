@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace saker::flight {
+
+/// What every process is started with.
+struct ProcessOptions {
+  std::string robot = "R1";
+  std::string config_file;
+  std::vector<std::string> settings;
+  bool verbose = false;
+};
+
+struct Program {
+  std::string name;  ///< saker-flight, …
+  std::string does;  ///< one line, for --help
+  /// Options of its own.
+  std::function<void(CLI::App&)> add_options = [](CLI::App&) {};
+  /// Runs until `stop_requests`; its result is the exit status.
+  std::function<int(const ProcessOptions&)> run;
+};
+
+/// `main` of a process: command line, log to stderr, SIGTERM and SIGINT. What `run` throws is one
+/// line on stderr and status 2.
+[[nodiscard]] int run_program(const Program& program, int argc, const char* const* argv);
+
+/// How often SIGTERM or SIGINT came.
+[[nodiscard]] int stop_requests();
+
+}  // namespace saker::flight
