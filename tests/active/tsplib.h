@@ -68,9 +68,8 @@ inline Instance kroA100() {
       {3756, 882}, {776, 392}, {1724, 1642}, {198, 1810}, {3950, 1558}}, 21282};
 }
 
-/// A drilling pattern that repeats twice, 4750 to the right, with six holes more.
-inline Instance pr1002() {
-  const Points block = {
+/// The part of pr1002 that repeats.
+inline const Points kPr1002Block = {
       {3350, 1700}, {3450, 1450}, {3550, 1600}, {3950, 1700}, {4050, 2000}, {4050, 2150},
       {4250, 1650}, {4150, 1500}, {4450, 1450}, {4400, 1700}, {4600, 1850}, {4900, 1550},
       {5100, 1550}, {5350, 1450}, {4950, 1700}, {4850, 1900}, {4900, 2050}, {5000, 2150},
@@ -127,10 +126,13 @@ inline Instance pr1002() {
       {6148, 3206}, {6148, 3099}, {6450, 2950}, {6450, 2800}, {6300, 2800}, {6150, 2800},
       {6000, 2800}, {6150, 2300}, {6300, 2300}, {6450, 2300}, {6450, 4950}, {5050, 5750},
       {5050, 8450}, {5050, 11650}};
+
+/// A drilling pattern that repeats twice, 4750 to the right, with six holes more.
+inline Instance pr1002() {
   Points points = {{1150, 4000}, {1050, 2750}, {1150, 2250}, {1250, 2050}, {1350, 2350},
                    {1050, 1550}};
   for (const int shift : {0, 4750, 9500}) {
-    for (const auto& [x, y] : block) points.push_back({x + shift, y});
+    for (const auto& [x, y] : kPr1002Block) points.push_back({x + shift, y});
   }
   return {"pr1002", points, 259045};
 }

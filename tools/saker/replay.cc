@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "autonomy/lockstep.h"
+#include "bus/scan_log.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
@@ -33,6 +34,13 @@ const std::map<std::string, lidar::RecordingFormat> kFormats = {
     {"auto", lidar::RecordingFormat::kAutomatic},
     {"kitti", lidar::RecordingFormat::kKitti},
     {"ouster", lidar::RecordingFormat::kOuster}};
+
+std::unique_ptr<lidar::ScanSource> open_input(const ReplayOptions& options) {
+  const bool log =
+      options.format == "lcm" || (options.format == "auto" && flight::is_lcm_log(options.input));
+  if (log) return std::make_unique<flight::ScanLog>(options.input);
+  return lidar::open_recording(options.input, kFormats.at(options.format), options.metadata);
+}
 
 /// Passes frames on, shows progress and times the reading.
 class WatchedSource : public lidar::ScanSource {
@@ -128,8 +136,7 @@ void report(const nlohmann::json& results) {
 
 int replay(const ReplayOptions& options, const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common);
-  const auto source =
-      lidar::open_recording(options.input, kFormats.at(options.format), options.metadata);
+  const auto source = open_input(options);
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth, config.objects);
   core::Timings timings;
@@ -148,7 +155,9 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
-  if (truth) results["trajectory"] = trajectory_figures(result, *truth);
+  if (truth)
+    results["trajectory"] =
+        trajectory_figures(result.scans, result.T_world_lidar, truth->trajectory);
   core::write_file(out / "results.json", results.dump(2) + "\n");
   core::write_file(out / "timings.csv", timings.csv());
   write_map_picture(out / "map.png",
@@ -172,11 +181,12 @@ void add_replay(Commands& commands) {
                     .example = "saker replay drive/ -o out --threads 2"},
                    [options](const CommonOptions& common) { return replay(*options, common); });
   app.add_option("INPUT", options->input,
-                 "a folder of KITTI scans (*.bin, or with velodyne/ in it) or an Ouster capture "
-                 "(*.pcap)")
+                 "a folder of KITTI scans (*.bin, or with velodyne/ in it), an Ouster capture "
+                 "(*.pcap) or a log of lcm-logger on the bulk network (scans, deskewed, without "
+                 "their poses)")
       ->required();
-  app.add_option("--format", options->format, "kitti or ouster; found out when not given")
-      ->check(CLI::IsMember({"auto", "kitti", "ouster"}));
+  app.add_option("--format", options->format, "kitti, ouster or lcm; found out when not given")
+      ->check(CLI::IsMember({"auto", "kitti", "ouster", "lcm"}));
   app.add_option("--meta", options->metadata,
                  "the sensor's metadata; beside the capture when not given");
   app.add_option("--truth", options->truth, "a truth.json: drawn into map.png, and compared with");

@@ -53,13 +53,15 @@ Truth read_truth(const std::filesystem::path& file, const objects::ClassTable& t
   return truth;
 }
 
-nlohmann::json trajectory_figures(const autonomy::LockstepResult& result, const Truth& truth) {
+nlohmann::json trajectory_figures(std::span<const autonomy::ScanRecord> scans,
+                                  std::span<const SE3> T_world_lidar,
+                                  const std::vector<StampedPose>& truth) {
   double square = 0, greatest = 0, angle_square = 0;
   int compared = 0;
-  for (std::size_t i = 0; i < result.scans.size(); ++i) {
-    const StampedPose* pose = at(truth.trajectory, to_seconds(result.scans[i].stamp));
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const StampedPose* pose = at(truth, to_seconds(scans[i].stamp));
     if (pose == nullptr) continue;
-    const SE3 error = pose->T_world_lidar.inverse() * result.T_world_lidar[i];
+    const SE3 error = pose->T_world_lidar.inverse() * T_world_lidar[i];
     square += error.translation().squaredNorm();
     greatest = std::max(greatest, error.translation().norm());
     angle_square += core::so3_log(error.linear()).squaredNorm();

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 #include "autonomy/lockstep.h"
@@ -27,7 +28,8 @@ struct Truth {
 /// RMS and greatest error of position (m), RMS error of rotation (deg) over the scans whose stamp
 /// (to 1 ms) the truth has, as given: without alignment, since both start in the same frame. Null
 /// where no stamp is the same.
-[[nodiscard]] nlohmann::json trajectory_figures(const autonomy::LockstepResult& result,
-                                                const Truth& truth);
+[[nodiscard]] nlohmann::json trajectory_figures(std::span<const autonomy::ScanRecord> scans,
+                                                std::span<const SE3> T_world_lidar,
+                                                const std::vector<StampedPose>& truth);
 
 }  // namespace saker::tools

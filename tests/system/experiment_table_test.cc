@@ -1,0 +1,76 @@
+#include "saker/experiment_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace saker::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json run(const std::string& scenario, const std::string& policy,
+         const std::vector<std::pair<double, double>>& errors, double clearance) {
+  Json list = Json::array();
+  for (const auto& [length, width] : errors) {
+    list.push_back({{"length_m", length}, {"width_m", width}});
+  }
+  return {{"scenario", scenario},
+          {"policy", policy},
+          {"succeeded", true},
+          {"targets", 2},
+          {"found", list.size()},
+          {"errors", list},
+          {"collisions", 1},
+          {"min_clearance_m", clearance},
+          {"trajectory_error_m", 0.1},
+          {"flight_time_s", 100.0},
+          {"path_m", 50.0}};
+}
+
+TEST(ExperimentTable, PoolsTheErrorsOfAllObjectsNotTheMeansOfRuns) {
+  const auto rows = pool({run("street", "visit", {{0.4, 0.4}, {0.4, 0.4}}, 1),
+                          run("street", "visit", {{-0.2, -0.2}}, 0.7)});
+  ASSERT_EQ(rows.size(), 1U);
+  const Json row = row_json(rows[0]);
+  EXPECT_NEAR(row["bias_m"].get<double>(), (4 * 0.4 - 2 * 0.2) / 6, 1e-12);
+  EXPECT_NEAR(row["mae_m"].get<double>(), (4 * 0.4 + 2 * 0.2) / 6, 1e-12);
+  EXPECT_NEAR(row["sd_m"].get<double>(), std::sqrt((4 * 0.04 + 2 * 0.16) / 5), 1e-12);
+  EXPECT_EQ(row["targets"], 4);
+  EXPECT_EQ(row["found"], 3);
+  EXPECT_EQ(row["collisions"], 2);
+  EXPECT_EQ(row["min_clearance_m"], 0.7);
+  EXPECT_EQ(row["flight_time_s"], 100.0);
+}
+
+TEST(ExperimentTable, HasARowForEachScenarioAndPolicyAndOneForAll) {
+  const auto rows = pool({run("street", "a", {}, 1), run("street", "b", {}, 1),
+                          run("garage", "a", {}, 1), run("garage", "b", {}, 1)});
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[2].scenario, "garage");
+  EXPECT_EQ(rows[4].scenario, "all");
+  EXPECT_EQ(rows[4].policy, "a");
+  EXPECT_EQ(rows[4].runs, 2);
+}
+
+TEST(ExperimentTable, OfRunsThatFoundNothingHasNoErrors) {
+  Json nothing = run("street", "visit", {}, 1);
+  nothing["min_clearance_m"] = nullptr;
+  nothing["trajectory_error_m"] = nullptr;
+  const auto rows = pool({nothing});
+  const Json row = row_json(rows[0]);
+  EXPECT_TRUE(row["bias_m"].is_null());
+  EXPECT_TRUE(row["min_clearance_m"].is_null());
+  EXPECT_TRUE(row["trajectory_error_m"].is_null());
+  EXPECT_EQ(row["found"], 0);
+}
+
+TEST(ExperimentTable, TextHasALineForEachRowUnderItsHeads) {
+  const std::string text = table_text(pool({run("street", "visit", {{0.4, 0.4}}, 1)}));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+  EXPECT_NE(text.find("1 of 2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace saker::tools

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/config_io.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "saker/configuration.h"
+#include "saker/experiment_table.h"
+#include "saker/mission_run.h"
+#include "saker/output.h"
+#include "saker/subcommand.h"
+#include "simulation/scenario.h"
+
+namespace saker::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExperimentOptions {
+  std::vector<std::string> scenarios;
+  std::vector<std::string> policies;  ///< empty: the configuration's
+  int runs = 1;
+};
+
+/// A run, and the folder inside OUT that it has for itself.
+struct Job {
+  MissionRun run;
+  fs::path folder;
+};
+
+simulation::MissionConfig read_site(const std::string& file) {
+  const auto scenario = core::load_config<simulation::Scenario>(file, {});
+  if (scenario.kind != simulation::ScenarioKind::mission) {
+    throw Error(fmt::format("{}: kind: expected mission", file));
+  }
+  return scenario.mission;
+}
+
+/// OUT[/SCENARIO][/POLICY][/seed-N]: what there are several of has folders.
+fs::path folder_of(const ExperimentOptions& options, const MissionRun& run,
+                   const std::string& policy) {
+  fs::path folder;
+  if (options.scenarios.size() > 1) folder /= run.scenario;
+  if (options.policies.size() > 1) folder /= policy;
+  if (options.runs > 1) folder /= fmt::format("seed-{}", run.seed);
+  return folder;
+}
+
+/// The same worlds, which follow from scenario and seed, for each policy.
+std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& common) {
+  const autonomy::Config config = read_configuration(common);
+  std::vector<Job> jobs;
+  for (const std::string& scenario : options.scenarios) {
+    const simulation::MissionConfig site = read_site(scenario);
+    for (const std::string& policy : options.policies) {
+      const auto chosen = core::config_with_setting("active.policy=" + policy, config);
+      for (int i = 0; i < options.runs; ++i) {
+        const std::uint64_t seed = common.seed + static_cast<std::uint64_t>(i);
+        MissionRun run{fs::path(scenario).stem(), site, chosen, seed, common.threads};
+        fs::path folder = folder_of(options, run, policy);
+        jobs.push_back({std::move(run), std::move(folder)});
+      }
+    }
+  }
+  return jobs;
+}
+
+/// What must be the same for an interrupted experiment to go on.
+std::string manifest(const ExperimentOptions& options, const CommonOptions& common) {
+  Json scenarios = Json::array();
+  for (const std::string& file : options.scenarios) {
+    scenarios.push_back({{"file", file}, {"content", core::read_file(file)}});
+  }
+  const Json all = {{"scenarios", scenarios},
+                    {"policies", options.policies},
+                    {"several_runs", options.runs > 1},
+                    {"seed", common.seed},
+                    {"configuration", configuration_text(read_configuration(common))}};
+  return all.dump(1) + "\n";
+}
+
+bool goes_on(const CommonOptions& common, const std::string& wanted) {
+  const fs::path file = fs::path(common.out) / "experiment.json";
+  return !common.force && fs::exists(file) && core::read_file(file) == wanted;
+}
+
+/// results.json is the last file of a run: where it is, the run is finished.
+std::optional<Json> finished(const fs::path& folder) {
+  const fs::path file = folder / "results.json";
+  if (!fs::exists(file)) return std::nullopt;
+  return Json::parse(core::read_file(file));
+}
+
+Json run_or_read(const Job& job, const CommonOptions& common, bool alone) {
+  const fs::path folder = fs::path(common.out) / job.folder;
+  if (auto results = finished(folder)) return *results;
+  if (alone) return fly(job.run, folder);
+  CommonOptions inner = common;
+  inner.out = folder;
+  inner.force = true;  // what an interrupted run left
+  const OutputFolder out(inner);
+  return fly(job.run, out.path());
+}
+
+/// Whether the mission went as it should.
+bool good(const Json& run) {
+  return run.at("succeeded") && run.at("collisions") == 0 && run.at("found") == run.at("targets");
+}
+
+int experiment(ExperimentOptions options, const CommonOptions& common) {
+  if (options.policies.empty()) {
+    const auto policy = read_configuration(common).active.policy;
+    options.policies = {active::enum_names(policy)[static_cast<std::size_t>(policy)]};
+  }
+  const std::vector<Job> jobs = jobs_of(options, common);
+  const std::string wanted = manifest(options, common);
+  CommonOptions outer = common;
+  outer.force = common.force || goes_on(common, wanted);
+  const OutputFolder out(outer);
+  if (common.force) {
+    for (const Job& job : jobs) fs::remove(out.path() / job.folder / "results.json");
+  }
+  core::write_file(out / "experiment.json", wanted);
+
+  std::vector<Json> results;
+  int fell_short = 0;
+  for (const Job& job : jobs) {
+    results.push_back(run_or_read(job, common, jobs.size() == 1));
+    if (good(results.back())) continue;
+    ++fell_short;
+    spdlog::warn("{} seed {}: {} at {}, {} of {} targets found, {} collisions", job.run.scenario,
+                 job.run.seed, results.back()["outcome"].get<std::string>(),
+                 results.back()["phase"].get<std::string>(), results.back()["found"].get<int>(),
+                 results.back()["targets"].get<int>(), results.back()["collisions"].get<int>());
+  }
+  const std::vector<TableRow> rows = pool(results);
+  if (jobs.size() > 1) {
+    Json pooled = Json::array();
+    for (const TableRow& row : rows) pooled.push_back(row_json(row));
+    core::write_file(out / "results.json",
+                     Json{{"runs", jobs.size()}, {"table", pooled}}.dump(2) + "\n");
+  }
+  core::write_file(out / "table.txt", table_text(rows));
+  std::cout << table_text(rows);
+  return fell_short == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_experiment(Commands& commands) {
+  auto options = std::make_shared<ExperimentOptions>();
+  CLI::App& app = commands.add(
+      {.name = "experiment",
+       .does = "whole missions, world and vehicle simulated, in lockstep; goes on where it was "
+               "interrupted",
+       .output = Output::folder,
+       .example = "saker experiment configs/scenarios/demo.yaml -o out --runs 10"},
+      [options](const CommonOptions& common) { return experiment(*options, common); });
+  app.add_option("SCENARIO", options->scenarios, "what to fly in (*.yaml, kind mission)")
+      ->required();
+  app.add_option("--policy", options->policies,
+                 "policies, separated by commas; active.policy when not given")
+      ->delimiter(',')
+      ->check(CLI::IsMember(active::enum_names(active::PolicyName::visit)));
+  app.add_option("--runs", options->runs, "seeds of each: --seed and those that follow")
+      ->check(CLI::Range(1, 100000));
+}
+
+}  // namespace saker::tools

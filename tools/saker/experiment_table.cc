@@ -1,0 +1,105 @@
+#include "saker/experiment_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/statistics.h"
+
+namespace saker::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kAll = "all";
+
+/// A figure of too few objects is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+void add_number(const Json& value, std::vector<double>& to) {
+  if (value.is_number()) to.push_back(value.get<double>());
+}
+
+void add(const Json& run, TableRow& row) {
+  ++row.runs;
+  row.succeeded += run.at("succeeded").get<bool>();
+  row.targets += run.at("targets").get<int>();
+  row.found += run.at("found").get<int>();
+  row.collisions += run.at("collisions").get<int>();
+  for (const Json& object : run.at("errors")) {
+    add_number(object.at("length_m"), row.errors);
+    add_number(object.at("width_m"), row.errors);
+  }
+  add_number(run.at("trajectory_error_m"), row.trajectory_errors);
+  add_number(run.at("flight_time_s"), row.flight_times);
+  add_number(run.at("path_m"), row.paths);
+  const Json& clearance = run.at("min_clearance_m");
+  if (clearance.is_number()) {
+    row.min_clearance_m = std::min(row.min_clearance_m, clearance.get<double>());
+  }
+}
+
+TableRow& row_of(std::vector<TableRow>& rows, const std::string& scenario,
+                 const std::string& policy) {
+  const auto found = std::ranges::find_if(
+      rows, [&](const TableRow& row) { return row.scenario == scenario && row.policy == policy; });
+  if (found != rows.end()) return *found;
+  TableRow& row = rows.emplace_back();
+  row.scenario = scenario;
+  row.policy = policy;
+  return row;
+}
+
+}  // namespace
+
+std::vector<TableRow> pool(const std::vector<Json>& results) {
+  std::vector<TableRow> rows, totals;
+  std::set<std::string> scenarios;
+  for (const Json& run : results) {
+    const std::string scenario = run.at("scenario"), policy = run.at("policy");
+    scenarios.insert(scenario);
+    add(run, row_of(rows, scenario, policy));
+    add(run, row_of(totals, kAll, policy));
+  }
+  if (scenarios.size() > 1) rows.insert(rows.end(), totals.begin(), totals.end());
+  return rows;
+}
+
+Json row_json(const TableRow& row) {
+  return {{"scenario", row.scenario},
+          {"policy", row.policy},
+          {"runs", row.runs},
+          {"succeeded", row.succeeded},
+          {"targets", row.targets},
+          {"found", row.found},
+          {"bias_m", number(core::mean(row.errors))},
+          {"sd_m", number(core::standard_deviation(row.errors))},
+          {"mae_m", number(core::mean_absolute(row.errors))},
+          {"trajectory_error_m", number(core::mean(row.trajectory_errors))},
+          {"collisions", row.collisions},
+          {"min_clearance_m", number(row.min_clearance_m)},
+          {"flight_time_s", number(core::mean(row.flight_times))},
+          {"path_m", number(core::mean(row.paths))}};
+}
+
+std::string table_text(const std::vector<TableRow>& rows) {
+  std::string text = fmt::format(
+      "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7} {:>6} {:>6} {:>10} {:>10} {:>9} {:>7} {:>7}\n",
+      "scenario", "policy", "runs", "ok", "found", "bias m", "sd m", "MAE m", "traject. m",
+      "collisions", "clear. m", "time s", "path m");
+  for (const TableRow& row : rows) {
+    text += fmt::format(
+        "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7.3f} {:>6.3f} {:>6.3f} {:>10.3f} {:>10} {:>9.2f} "
+        "{:>7.1f} {:>7.1f}\n",
+        row.scenario, row.policy, row.runs, row.succeeded,
+        fmt::format("{} of {}", row.found, row.targets), core::mean(row.errors),
+        core::standard_deviation(row.errors), core::mean_absolute(row.errors),
+        core::mean(row.trajectory_errors), row.collisions, row.min_clearance_m,
+        core::mean(row.flight_times), core::mean(row.paths));
+  }
+  return text;
+}
+
+}  // namespace saker::tools

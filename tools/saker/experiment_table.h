@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace saker::tools {
+
+/// Runs of one scenario with one policy, or of all scenarios, put together: errors of length and
+/// width over all objects of all runs, as the paper's first table.
+struct TableRow {
+  std::string scenario, policy;
+  int runs = 0;
+  int succeeded = 0;
+  int targets = 0;
+  int found = 0;
+  int collisions = 0;
+  std::vector<double> errors;               ///< m, length and width, mapped − true
+  std::vector<double> trajectory_errors;    ///< m, one a run
+  std::vector<double> flight_times, paths;  ///< s, m; one a run
+  double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs
+};
+
+/// A row for each scenario and policy in the order of the results, then one "all" for each policy
+/// that flew several scenarios. \param results what each run's results.json holds.
+[[nodiscard]] std::vector<TableRow> pool(const std::vector<nlohmann::ordered_json>& results);
+
+/// The same keys as a run's results.json; means over the runs where a figure is the run's.
+[[nodiscard]] nlohmann::ordered_json row_json(const TableRow& row);
+
+[[nodiscard]] std::string table_text(const std::vector<TableRow>& rows);
+
+}  // namespace saker::tools

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "autonomy/mission_lockstep.h"
+#include "core/progress.h"
+#include "saker/trajectory_truth.h"
+#include "simulation/simulated_vehicle.h"
+
+namespace saker::tools {
+
+/// Hears a mission: logs every transition, counts refusals by their cause, keeps what the picture
+/// and the comparison with the truth need.
+class MissionRecorder : public autonomy::MissionObserver {
+ public:
+  MissionRecorder(simulation::SimulatedVehicle& vehicle, const std::string& name, int targets)
+      : vehicle_(vehicle), start_(vehicle.now()), progress_(name, targets) {}
+
+  void on_scan(const autonomy::IngestedScan& scan) override;
+  void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override;
+  void on_event(const autonomy::MissionEvent& event) override;
+
+  /// T_world_lidar as it truly was, at the stamps of the scans.
+  [[nodiscard]] const std::vector<StampedPose>& true_poses() const { return true_poses_; }
+  /// Points of all scans in `world`. \param T_world_lidar of the scans, after SLAM
+  [[nodiscard]] std::vector<Eigen::Vector3d> cloud(const std::vector<SE3>& T_world_lidar) const;
+  /// {"refusals": {cause: number}, "events": [{"t_s", "from", "to", "cause", "text"}]}
+  [[nodiscard]] nlohmann::ordered_json record() const;
+
+ private:
+  struct SparsePoint {
+    std::uint32_t scan;  ///< number of the scan
+    Eigen::Vector3f in_lidar;
+  };
+
+  simulation::SimulatedVehicle& vehicle_;
+  Time start_;
+  core::Progress progress_;
+  std::uint32_t scans_ = 0;
+  std::vector<SparsePoint> cloud_;
+  std::vector<StampedPose> true_poses_;
+  std::map<std::string, int> refusals_;
+  nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
+  long events_left_out_ = 0;
+};
+
+}  // namespace saker::tools

@@ -1,0 +1,204 @@
+#include "saker/mission_run.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "autonomy/local_checker.h"
+#include "core/files.h"
+#include "core/statistics.h"
+#include "objects/comparison.h"
+#include "objects/map_io.h"
+#include "plant/simulated_plant.h"
+#include "saker/map_picture.h"
+#include "saker/mission_recorder.h"
+#include "saker/run_recorder.h"
+
+namespace saker::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A figure of too few objects is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+/// What the vehicle is told of the site: the fence, and how its lidar is mounted.
+autonomy::Config at_site(autonomy::Config config, const MissionRun& run,
+                         const simulation::MissionWorld& site) {
+  config.motion.geofence = {site.fence.lowest_m, site.fence.highest_m, site.fence.polygon_m};
+  config.mount = {run.site.mount.position_m, run.site.mount.rotation_deg};
+  return config;
+}
+
+/// Every phase with its deadline, twice: then something is wrong with the deadlines themselves.
+double longest_s(const autonomy::MissionConfig& config) {
+  return 2 * (config.preflight_s + config.takeoff_s + config.tour_s + config.return_s +
+              config.landing_s);
+}
+
+/// Ids of the true vehicles that the prior map is about: those nearest to take-off
+/// (`mission.site.targets`).
+std::vector<int> true_targets(const objects::ObjectMap& truth, const objects::ObjectMap& prior) {
+  std::vector<std::pair<double, int>> by_distance;
+  for (const objects::MapObject& object : truth.objects) {
+    if (object.class_id != prior.objects.front().class_id) continue;
+    by_distance.emplace_back(objects::place(object.model).norm(), object.id);
+  }
+  std::sort(by_distance.begin(), by_distance.end());
+  by_distance.resize(std::min(by_distance.size(), prior.objects.size()));
+  std::vector<int> ids;
+  for (const auto& [distance, id] : by_distance) ids.push_back(id);
+  return ids;
+}
+
+const objects::MapObject& by_id(const objects::ObjectMap& map, int id) {
+  return *std::ranges::find(map.objects, id, &objects::MapObject::id);
+}
+
+Json target_list(const std::vector<active::Target>& targets) {
+  Json list = Json::array();
+  for (const active::Target& target : targets) {
+    list.push_back(
+        {{"id", target.id}, {"status", to_string(target.status)}, {"reason", target.reason}});
+  }
+  return list;
+}
+
+Json mission_figures(const autonomy::MissionResult& result, const simulation::VehicleTruth& truth) {
+  const auto count = [&](active::TargetStatus status) {
+    return std::ranges::count(result.targets, status, &active::Target::status);
+  };
+  const autonomy::MissionCounters& counters = result.counters;
+  return {{"succeeded", result.succeeded},
+          {"phase", to_string(result.phase)},
+          {"outcome", to_string(result.outcome)},
+          {"visited", count(active::TargetStatus::done) + count(active::TargetStatus::visited)},
+          {"unreachable", count(active::TargetStatus::unreachable)},
+          {"collisions", truth.collisions},
+          {"min_clearance_m", number(truth.min_clearance_m)},
+          {"flight_time_s", truth.flight_time_s},
+          {"path_m", truth.path_m},
+          {"scans", counters.scans},
+          {"scans_not_registered", counters.scans_not_registered},
+          {"plans", counters.plans},
+          {"refused_plans", counters.refused_plans},
+          {"commits", counters.commits},
+          {"refused_commits", counters.refused_commits},
+          {"stops", counters.stops},
+          {"target_list", target_list(result.targets)}};
+}
+
+std::string rows_of(const std::vector<StampedPose>& poses) {
+  std::string rows;
+  for (const StampedPose& pose : poses) rows += tum_row(from_seconds(pose.t), pose.T_world_lidar);
+  return rows;
+}
+
+void write_trajectories(const autonomy::MissionResult& result, const MissionRecorder& recorder,
+                        const fs::path& out) {
+  std::string trajectory, odometry;
+  for (std::size_t i = 0; i < result.T_world_lidar.size(); ++i) {
+    trajectory += tum_row(result.scans[i].stamp, result.T_world_lidar[i]);
+    odometry += tum_row(result.scans[i].stamp, result.scans[i].T_odom_lidar);
+  }
+  core::write_file(out / "trajectory.txt", trajectory);
+  core::write_file(out / "odometry.txt", odometry);
+  core::write_file(out / "trajectory_truth.txt", rows_of(recorder.true_poses()));
+}
+
+void write_maps(const autonomy::MissionResult& result, const objects::ObjectMap& truth,
+                const objects::ObjectMap& prior, const MissionRecorder& recorder,
+                const objects::ClassTable& table, const fs::path& out) {
+  objects::write_map(out / "map.json", result.map, table);
+  objects::write_map(out / "map.smap", result.map, table);
+  objects::write_map(out / "truth.json", truth, table);
+  objects::write_map(out / "prior.json", prior, table);
+  std::vector<Eigen::Vector3d> path;
+  for (const SE3& T : result.T_world_lidar) path.emplace_back(T.translation());
+  write_map_picture(out / "map.png",
+                    {.map = result.map,
+                     .truth = &truth,
+                     .trajectory = std::move(path),
+                     .cloud = recorder.cloud(result.T_world_lidar)},
+                    table);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Json target_figures(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
+                    const std::vector<int>& targets, const objects::ClassTable& table) {
+  std::vector<double> errors;
+  Json list = Json::array();
+  for (const objects::ClassComparison& c : objects::compare(mapped, truth, table, {})) {
+    if (c.shape != objects::Shape::cuboid) continue;
+    for (const auto& [mapped_id, true_id] : c.pairs) {
+      if (std::ranges::find(targets, true_id) == targets.end()) continue;
+      const auto& found = std::get<objects::Cuboid>(by_id(mapped, mapped_id).model);
+      const auto& real = std::get<objects::Cuboid>(by_id(truth, true_id).model);
+      const Eigen::Vector3d error = found.size - real.size;
+      const Eigen::Vector3d away = found.pose.translation() - real.pose.translation();
+      errors.insert(errors.end(), {error.x(), error.y()});
+      list.push_back({{"id", true_id},
+                      {"length_m", error.x()},
+                      {"width_m", error.y()},
+                      {"distance_m", away.head<2>().norm()}});
+    }
+  }
+  return {{"targets", targets.size()},
+          {"found", list.size()},
+          {"bias_m", number(core::mean(errors))},
+          {"sd_m", number(core::standard_deviation(errors))},
+          {"mae_m", number(core::mean_absolute(errors))},
+          {"errors", list}};
+}
+
+Json fly(const MissionRun& run, const fs::path& out) {
+  const auto begin = std::chrono::steady_clock::now();
+  simulation::SimulatedVehicle vehicle(run.site, run.seed);
+  const simulation::MissionWorld& site = vehicle.site();
+  const autonomy::Config config = at_site(run.config, run, site);
+  SimulatedPlant plant(vehicle);
+  autonomy::LocalChecker checker(config.local_checker, config.collision_checker,
+                                 config.motion.clearance);
+  core::Timings timings;
+  autonomy::MissionLockstep mission(config, vehicle.sensor(), site.prior, plant, checker,
+                                    run.threads, timings);
+  MissionRecorder recorder(vehicle, run.scenario, static_cast<int>(site.prior.objects.size()));
+  const double built_s = seconds_since(begin);
+  const Time start = vehicle.now();
+  const autonomy::MissionResult result = mission.run(longest_s(config.mission), recorder);
+  const double wall_s = seconds_since(begin) - built_s, flown_s = to_seconds(vehicle.now() - start);
+
+  const objects::ObjectMap truth = vehicle.true_map();
+  Json results = {
+      {"scenario", run.scenario},
+      {"policy",
+       active::enum_names(config.active.policy)[static_cast<std::size_t>(config.active.policy)]},
+      {"seed", run.seed}};
+  results.update(
+      target_figures(result.map, truth, true_targets(truth, site.prior), config.objects));
+  results.update(mission_figures(result, vehicle.truth()));
+  const Json trajectory =
+      trajectory_figures(result.scans, result.T_world_lidar, recorder.true_poses());
+  results["trajectory_error_m"] = trajectory.is_null() ? Json() : trajectory["position_rmse_m"];
+  results["trajectory"] = trajectory;
+  results.update(recorder.record());
+  results["wall_s"] = wall_s;
+  results["set_up_s"] = built_s;
+  results["real_time_factor"] = flown_s / wall_s;
+
+  write_trajectories(result, recorder, out);
+  write_maps(result, truth, site.prior, recorder, config.objects, out);
+  core::write_file(out / "timings.csv", timings.csv());
+  core::write_file(out / "results.json", results.dump(2) + "\n");
+  return results;
+}
+
+}  // namespace saker::tools
