@@ -1,0 +1,83 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "autonomy/mission.h"
+#include "autonomy/pipeline.h"
+#include "autonomy/planning.h"
+#include "bus/mailbox.h"
+#include "process/sensor_clock.h"
+
+namespace saker::flight {
+
+/// The sensor's time in every thread.
+class SharedClock {
+ public:
+  void hear(Time stamp) {
+    const auto received = SensorClock::Steady::now();
+    const std::lock_guard lock(mutex_);
+    clock_.hear(stamp, received);
+  }
+  /// 0 before the first stamp.
+  [[nodiscard]] Time now() const {
+    const std::lock_guard lock(mutex_);
+    return clock_.at(SensorClock::Steady::now()).value_or(0);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  SensorClock clock_;
+};
+
+/// A registered scan's pose, for the pose of the body and for SLAM.
+struct PoseFix {
+  Time stamp = 0;
+  SE3 T_odom_lidar = SE3::Identity();
+  Matrix6d covariance = Matrix6d::Constant(NAN);
+  bool registered = false;
+};
+
+/// What the safety loop orders of the others.
+struct Orders {
+  autonomy::MissionOrders orders;
+  int anchors = 0;  ///< counts how often guidance was to begin anew
+};
+
+/// All that stands between the loops of the executive: newest values, and queues with a ceiling.
+struct Blackboard {
+  SharedClock clock;
+
+  // From the network.
+  Mailbox<VehicleState> vehicle;
+  BoundedQueue<CommandAck> acks{64};
+  Mailbox<motion::Verdict> verdict;
+  Mailbox<occupancy::OccupancyGrid> grid;
+
+  // From the sensor: 2048 lidar packets are three seconds.
+  BoundedQueue<std::vector<std::uint8_t>> packets{2048};
+  BoundedQueue<lidar::ImuSample> imu{1024};
+  std::atomic<Time> newest_scan = 0;
+  std::atomic<Time> newest_registered = 0;
+
+  // From ingestion to pose, segmentation and mapping; from segmentation to mapping.
+  BoundedQueue<PoseFix> pose_fixes{32};
+  BoundedQueue<PoseFix> motions{1024};
+  Mailbox<autonomy::IngestedScan> scan;
+  BoundedQueue<detection::LabelledScan> labelled{32};
+  Mailbox<autonomy::MapSnapshot> map;
+  Mailbox<VehicleOdometry> odometry;
+
+  // Planning, guidance, safety.
+  Mailbox<autonomy::Planning::Output> plan;
+  Mailbox<motion::Trajectory> committed;
+  Mailbox<Setpoint> setpoint;
+  Mailbox<Orders> orders;
+  BoundedQueue<autonomy::MissionEvent> events{256};
+  std::atomic<bool> land_ordered = false;
+  std::atomic<bool> mission_done = false;
+};
+
+}  // namespace saker::flight

@@ -1,0 +1,164 @@
+#include "executive/executive.h"
+
+#include <spdlog/spdlog.h>
+
+#include <thread>
+
+#include "bus/messages.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "objects/map_io.h"
+#include "process/process.h"
+
+namespace saker::flight {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{100};      // of the main thread at what the loops say
+constexpr int kLooksPerHealth = 10;     // 1 Hz
+constexpr int kHealthsPerProgress = 5;  // a line every 5 s
+constexpr int kPosePriority = 60, kSafetyPriority = 70, kGuidancePriority = 65;
+
+}  // namespace
+
+Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, Bus& bus,
+                     Presence& presence)
+    : config_(config),
+      sensor_(input.sensor),
+      bus_(bus),
+      presence_(presence),
+      timings_({"odometry", "segmentation", "mapping", "planning"}),
+      lidar_port_(input.sensor.lidar_port),
+      imu_port_(input.sensor.imu_port),
+      ingestion_(config.autonomy.odometry, config.autonomy.standstill, input.sensor,
+                 mount_pose(config.autonomy.mount)),
+      segmentation_(config.autonomy.segmentation, config.autonomy.objects),
+      window_(config.autonomy.detection.window_s),
+      mapping_(config.autonomy.detection, config.autonomy.slam, config.autonomy.objects),
+      body_pose_(config.autonomy.body_pose, mount_pose(config.autonomy.mount)),
+      planning_(config.autonomy.planning, config.autonomy.active, config.autonomy.motion,
+                config.autonomy.objects, input.prior, config.autonomy.mission.height_m),
+      has_targets_(!planning_.policy().targets().empty()),
+      guidance_(config.autonomy.guidance),
+      supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()) {
+  board_.orders.put(Orders{});
+  subscribe();
+  make_loops();
+}
+
+Executive::~Executive() { stop(); }
+
+void Executive::subscribe() {
+  bus_.subscribe<vehicle_state_t>([this](const vehicle_state_t& message) {
+    auto state = from_lcm(message);
+    if (state) board_.vehicle.put(std::move(*state));
+    return state.has_value();
+  });
+  bus_.subscribe<command_ack_t>([this](const command_ack_t& message) {
+    auto ack = from_lcm(message);
+    if (ack) board_.acks.push(std::move(*ack));
+    return ack.has_value();
+  });
+  bus_.subscribe<verdict_t>([this](const verdict_t& message) {
+    auto verdict = from_lcm(message);
+    if (verdict) board_.verdict.put(std::move(*verdict));
+    return verdict.has_value();
+  });
+  bus_.subscribe<occupancy_t>([this](const occupancy_t& chunk) {
+    if (auto grid = grid_joiner_.add(chunk)) board_.grid.put(std::move(*grid));
+    return grid_joiner_.accepted();
+  });
+}
+
+void Executive::make_loops() {
+  const auto add = [this](const char* name, double rate_hz, int priority,
+                          LoopStatus (Executive::*body)()) {
+    loops_.push_back(
+        std::make_unique<Loop>(name, rate_hz, priority, [this, body] { return (this->*body)(); }));
+  };
+  const autonomy::Config& config = config_.autonomy;
+  add("io", 200, 0, &Executive::io);
+  add("sensor", 200, 0, &Executive::sensor);
+  add("ingestion", 50, 0, &Executive::ingest);
+  add("segmentation", config.rates.flight_segmentation_hz, 0, &Executive::segment);
+  add("mapping", config.rates.slam_hz, 0, &Executive::map);
+  add("planning", config.planning.rate_hz, 0, &Executive::plan);
+  add("pose", 100, kPosePriority, &Executive::pose);
+  add("guidance", 50, kGuidancePriority, &Executive::guide);
+  add("safety", 50, kSafetyPriority, &Executive::supervise);
+}
+
+/// The mission's time is the sensor's: without it nothing begins.
+bool Executive::wait_for_sensor() {
+  const auto deadline = std::chrono::steady_clock::now() +
+                        std::chrono::duration<double>(config_.autonomy.mission.preflight_s);
+  while (board_.clock.now() == 0) {
+    if (stop_requests() > 0) return false;
+    if (std::chrono::steady_clock::now() > deadline) {
+      spdlog::error("lidar_silent: no packet on UDP ports {} and {} for {:g} s", sensor_.lidar_port,
+                    sensor_.imu_port, config_.autonomy.mission.preflight_s);
+      return false;
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  return true;
+}
+
+bool Executive::run() {
+  if (const std::string fault = lock_memory(); !fault.empty()) {
+    spdlog::warn("memory is not locked: {}", fault);
+  }
+  for (auto& loop : loops_) {
+    const bool flies = loop->name() == "safety" || loop->name() == "guidance" ||
+                       loop->name() == "planning" || loop->name() == "pose";
+    if (flies && board_.clock.now() == 0 && !wait_for_sensor()) return false;
+    loop->start();
+    if (!loop->priority_granted()) {
+      spdlog::warn("{}: no real-time priority (limit rtprio); it may be late", loop->name());
+    }
+  }
+  for (int look = 1; !board_.mission_done && stop_requests() < 2; ++look) {
+    std::this_thread::sleep_for(kLook);
+    if (stop_requests() > 0) board_.land_ordered = true;
+    say_events();
+    if (look % kLooksPerHealth == 0) say_health();
+    if (look % (kLooksPerHealth * kHealthsPerProgress) == 0) say_progress();
+  }
+  stop();
+  say_events();
+  say_health();
+  say_progress();
+  return supervisor_.mission().succeeded();
+}
+
+void Executive::stop() {
+  for (auto& loop : loops_) loop->stop();
+}
+
+double Executive::age_ms(Time stamp) const {
+  return stamp == 0 ? NAN : 1e3 * to_seconds(board_.clock.now() - stamp);
+}
+
+void Executive::save(const std::filesystem::path& out) {
+  const slam::Slam& slam = mapping_.slam();
+  const objects::ObjectMap map = slam.map_with_covariance().map;
+  objects::write_map(out / "map.json", map, config_.autonomy.objects);
+  objects::write_map(out / "map.smap", map, config_.autonomy.objects);
+  std::string world, odom;
+  const auto row = [](Time stamp, const SE3& T) {
+    const Eigen::Vector3d t = T.translation();
+    const Eigen::Quaterniond q(T.linear());
+    return fmt::format("{:.6f} {:.6f} {:.6f} {:.6f} {:.8f} {:.8f} {:.8f} {:.8f}\n",
+                       to_seconds(stamp), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+  };
+  for (const ScanRow& scan : rows_) {
+    world += row(scan.stamp, slam.corrected(scan.stamp, scan.T_odom_lidar));
+    odom += row(scan.stamp, scan.T_odom_lidar);
+  }
+  core::write_file(out / "trajectory.txt", world);
+  core::write_file(out / "odometry.txt", odom);
+  core::write_file(out / "timings.csv", timings_.csv());
+}
+
+}  // namespace saker::flight

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "autonomy/body_pose.h"
+#include "autonomy/supervisor.h"
+#include "bus/bus.h"
+#include "bus/object_messages.h"
+#include "bus/occupancy_messages.h"
+#include "bus/presence.h"
+#include "core/timings.h"
+#include "executive/blackboard.h"
+#include "executive/loop.h"
+#include "lidar/udp_receiver.h"
+#include "process/configuration.h"
+
+/// The autonomy executive: the stages of `modules/autonomy` under real time, one thread a loop.
+///
+///     UDP ─▶ sensor ─▶ ingestion ─▶ segmentation ─▶ mapping ─▶ planning ─▶ guidance ─▶ LCM
+///                └────▶ pose ◀──┘      LCM ─▶ io ─▶ safety (and mission) ───┘
+///
+/// Loops meet on the blackboard only. Throws at set-up, never in a loop.
+namespace saker::flight {
+
+struct ExecutiveInput {
+  lidar::SensorInfo sensor;
+  objects::ObjectMap prior;
+};
+
+class Executive {
+ public:
+  /// Subscribes to `bus`, which has to outlive this, as `presence`. Throws Error on an invalid
+  /// configuration, prior map or model, and where a port cannot be had.
+  Executive(const ProcessConfig& config, const ExecutiveInput& input, Bus& bus, Presence& presence);
+  ~Executive();
+
+  /// Until the mission is done. The first stop request lands, the second one ends at once.
+  /// \return whether the mission succeeded
+  [[nodiscard]] bool run();
+
+  /// Map, trajectories and timings, as `saker replay` leaves them. After `run`.
+  void save(const std::filesystem::path& out);
+
+ private:
+  void make_loops();
+  void subscribe();
+  [[nodiscard]] bool wait_for_sensor();
+  void stop();
+
+  LoopStatus io();
+  LoopStatus sensor();
+  void take_packet(std::span<const std::uint8_t> payload);
+  LoopStatus ingest();
+  void take_scan(autonomy::IngestedScan scan);
+  LoopStatus segment();
+  LoopStatus map();
+  LoopStatus pose();
+  LoopStatus plan();
+  LoopStatus guide();
+  void begin_anew();
+  void take_proposal(Time now);
+  void send_trajectory(Time now);
+  LoopStatus supervise();
+  [[nodiscard]] autonomy::SupervisorInput seen(Time now);
+
+  void publish_mission(const autonomy::MissionEvent* event);
+  void publish_plan(const autonomy::Planning::Output& output);
+  void publish_map(const autonomy::MapSnapshot& map);
+  void say_events();
+  void say_health();
+  void say_progress();
+  [[nodiscard]] double age_ms(Time stamp) const;
+
+  struct ScanRow {
+    Time stamp;
+    SE3 T_odom_lidar;
+  };
+
+  ProcessConfig config_;
+  lidar::SensorInfo sensor_;
+  Bus& bus_;
+  Presence& presence_;
+  Blackboard board_;
+  core::Timings timings_;
+
+  // Each is used by its own loop alone.
+  OccupancyJoiner grid_joiner_;
+  lidar::UdpReceiver lidar_port_;
+  lidar::UdpReceiver imu_port_;
+  autonomy::Ingestion ingestion_;
+  std::int32_t scan_sequence_ = 0;
+  std::vector<ScanRow> rows_;
+  segmentation::Segmentation segmentation_;
+  autonomy::MotionLog motion_log_;
+  autonomy::LabelledWindow window_;
+  autonomy::Mapping mapping_;
+  MapSender map_sender_;
+  int map_cycles_ = 0;
+  autonomy::BodyPose body_pose_;
+  autonomy::Planning planning_;
+  const bool has_targets_;
+  autonomy::Guidance guidance_;
+  int anchors_seen_ = 0;
+  std::int64_t sent_trajectory_ = 0;
+  std::shared_ptr<const autonomy::Planning::Output> last_plan_;
+  autonomy::Supervisor supervisor_;
+  int anchors_ = 0;
+  std::chrono::steady_clock::time_point announced_;
+
+  Time took_off_ = 0;
+  autonomy::MissionEvent last_event_;
+  std::vector<std::unique_ptr<Loop>> loops_;  // last: their threads use what stands above
+};
+
+}  // namespace saker::flight

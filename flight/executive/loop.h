@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "bus/mailbox.h"
+#include "process/loop_meter.h"
+
+namespace saker::flight {
+
+/// What a loop says of itself after a run.
+struct LoopStatus {
+  double age_ms = std::numeric_limits<double>::quiet_NaN();  ///< of its newest input
+  long drops = 0;                                            ///< of the queues that it reads
+};
+
+/// A thread that runs at absolute deadlines (clock_nanosleep, TIMER_ABSTIME). A deadline that was
+/// missed is counted, never made up for.
+class Loop {
+ public:
+  using Body = std::function<LoopStatus()>;
+
+  /// \param priority  of SCHED_FIFO, 1 … 99; 0: an ordinary thread
+  Loop(std::string name, double rate_hz, int priority, Body body);
+  ~Loop();  ///< stops
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  void start();
+  void stop();  ///< after the run under way
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// Of the last second.
+  [[nodiscard]] std::shared_ptr<const loop_health_t> health() const { return health_.latest(); }
+  /// Whether its priority was granted; true where it asked for none.
+  [[nodiscard]] bool priority_granted() const { return granted_; }
+
+ private:
+  using Steady = std::chrono::steady_clock;
+
+  void work();
+  void report(LoopMeter& meter, const LoopStatus& status);
+
+  const std::string name_;
+  const Steady::duration period_;
+  const int priority_;
+  const Body body_;
+  Mailbox<loop_health_t> health_;
+  Steady::time_point reported_;
+  std::atomic<bool> stopping_ = false;
+  std::atomic<bool> granted_ = true;
+  std::thread thread_;
+};
+
+/// Keeps the process's memory from being swapped out; empty, or why it cannot.
+[[nodiscard]] std::string lock_memory();
+
+}  // namespace saker::flight

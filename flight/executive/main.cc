@@ -1,0 +1,64 @@
+#include <spdlog/spdlog.h>
+
+#include "bus/machine.h"
+#include "core/config_io.h"
+#include "executive/executive.h"
+#include "lidar/metadata.h"
+#include "objects/map_io.h"
+#include "process/process.h"
+#include "saker/output.h"
+
+namespace saker::flight {
+namespace {
+
+struct FlightOptions {
+  std::string prior;
+  std::string metadata;
+  tools::CommonOptions output;
+};
+
+int fly(const ProcessOptions& options, const FlightOptions& flight) {
+  const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
+  const ExecutiveInput input{lidar::read_metadata(flight.metadata),
+                             objects::read_map(flight.prior, config.autonomy.objects)};
+  require_fit(check_machine(
+      {.bus = config.bus, .lidar_ports = {input.sensor.lidar_port, input.sensor.imu_port}}));
+  Bus bus(config.bus, options.robot);
+  Presence presence(bus, "saker-flight");
+  presence.claim();
+  Executive executive(config, input, bus, presence);
+  const tools::OutputFolder out(flight.output);
+  spdlog::info("flies as {}", options.robot);
+  const bool succeeded = executive.run();
+  executive.save(out.path());
+  return succeeded ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace saker::flight
+
+int main(int argc, char** argv) {
+  auto flight = std::make_shared<saker::flight::FlightOptions>();
+  return saker::flight::run_program(
+      {.name = "saker-flight",
+       .does = "The autonomy executive of one robot: flies a mission over the targets of a prior "
+               "map and maps them.",
+       .add_options =
+           [flight](CLI::App& app) {
+             app.add_option("--prior", flight->prior, "map of the targets' rough places")
+                 ->type_name("FILE")
+                 ->required();
+             app.add_option("--meta", flight->metadata, "the sensor's metadata (JSON)")
+                 ->type_name("FILE")
+                 ->required();
+             app.add_option("-o", flight->output.out, "folder of the results")
+                 ->type_name("OUT")
+                 ->required();
+             app.add_flag("--force", flight->output.force, "replace results in OUT");
+           },
+       .run =
+           [flight](const saker::flight::ProcessOptions& options) {
+             return saker::flight::fly(options, *flight);
+           }},
+      argc, argv);
+}

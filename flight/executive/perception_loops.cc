@@ -1,0 +1,106 @@
+#include "bus/messages.h"
+#include "bus/scan_messages.h"
+#include "executive/executive.h"
+#include "lidar/imu_packet.h"
+
+/// The loops from packets to the map.
+namespace saker::flight {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kMostRows = 400000;  // eleven hours of scans
+constexpr int kCyclesPerMap = 4;           // `_OBJECTS` at 0.5 Hz
+
+}  // namespace
+
+LoopStatus Executive::io() {
+  while (bus_.handle(milliseconds(0)) > 0) {
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now - announced_ > Presence::kPeriod) {
+    presence_.announce();
+    announced_ = now;
+  }
+  return {};
+}
+
+LoopStatus Executive::sensor() {
+  for (lidar::UdpReceiver* port : {&lidar_port_, &imu_port_}) {
+    for (auto payload = port->receive(milliseconds(0)); !payload.empty();
+         payload = port->receive(milliseconds(0))) {
+      take_packet(payload);
+    }
+  }
+  return {NAN, board_.packets.dropped() + board_.imu.dropped()};
+}
+
+void Executive::take_packet(std::span<const std::uint8_t> payload) {
+  if (payload.size() == lidar::kImuPacketBytes) {
+    if (const auto sample = lidar::decode_imu(payload, sensor_)) {
+      board_.clock.hear(sample->stamp);
+      board_.imu.push(*sample);
+    }
+  }
+  board_.packets.push({payload.begin(), payload.end()});
+}
+
+LoopStatus Executive::ingest() {
+  for (const auto& packet : board_.packets.take_all()) ingestion_.add(packet);
+  auto frame = ingestion_.take_newest();
+  board_.newest_scan = ingestion_.newest_stamp();
+  if (frame) {
+    take_scan(
+        timings_.time("odometry", [&] { return ingestion_.register_scan(std::move(*frame)); }));
+  }
+  return {age_ms(board_.newest_scan), board_.packets.dropped() + ingestion_.dropped_scans()};
+}
+
+void Executive::take_scan(autonomy::IngestedScan scan) {
+  const autonomy::RegisteredScan& registered = scan.registered;
+  const bool ok = scan.status == odometry::OdometryStatus::ok;
+  if (scan.status == odometry::OdometryStatus::refused) return;
+  if (rows_.size() < kMostRows) rows_.push_back({registered.stamp, registered.T_odom_lidar});
+  const PoseFix fix{registered.stamp, registered.T_odom_lidar, scan.covariance, ok};
+  board_.motions.push(fix);
+  if (!ok) return;
+  board_.newest_registered = registered.stamp;
+  board_.pose_fixes.push(fix);
+  for (const scan_t& chunk : to_lcm(registered, ++scan_sequence_)) bus_.publish(chunk);
+  board_.scan.put(std::move(scan));
+}
+
+LoopStatus Executive::segment() {
+  const auto scan = board_.scan.take();
+  if (scan == nullptr) return {age_ms(board_.newest_registered), 0};
+  auto labels = timings_.time("segmentation", [&] {
+    return std::make_shared<const lidar::Labels>(segmentation_.segment(*scan->scan));
+  });
+  const autonomy::RegisteredScan& registered = scan->registered;
+  board_.labelled.push(
+      {registered.stamp, registered.T_odom_lidar, registered.points, std::move(labels)});
+  return {age_ms(registered.stamp), 0};
+}
+
+LoopStatus Executive::map() {
+  for (const PoseFix& step : board_.motions.take_all()) {
+    motion_log_.add(step.stamp, step.T_odom_lidar, step.covariance);
+  }
+  std::vector<detection::LabelledScan> labelled = board_.labelled.take_all();
+  const auto old = board_.map.latest();
+  if (labelled.empty()) return {age_ms(old ? old->stamp : 0), board_.labelled.dropped()};
+  for (detection::LabelledScan& scan : labelled) window_.add(std::move(scan));
+  const std::vector<detection::LabelledScan> window = window_.scans();
+  auto map = timings_.time(
+      "mapping", [&] { return mapping_.cycle(window, motion_log_.take(window.back().stamp)); });
+  bus_.publish(to_lcm(map->detections));
+  if (++map_cycles_ % kCyclesPerMap == 0) publish_map(*map);
+  board_.map.put(std::move(map));
+  return {age_ms(window.back().stamp), board_.labelled.dropped()};
+}
+
+void Executive::publish_map(const autonomy::MapSnapshot& map) {
+  bus_.publish(map_sender_.next(map.map, map.stamp));
+}
+
+}  // namespace saker::flight

@@ -1,0 +1,118 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bus/messages.h"
+#include "executive/executive.h"
+
+/// What the executive says of itself: MISSION, PLAN, HEALTH, and lines.
+namespace saker::flight {
+namespace {
+
+counter_t counter(const char* name, long value) {
+  counter_t message{};
+  message.name = name;
+  message.value = value;
+  return message;
+}
+
+candidate_t to_lcm(const active::Candidate& candidate) {
+  candidate_t message{};
+  message.target_id = candidate.viewpoint.target_id;
+  for (int i = 0; i < 3; ++i) {
+    message.position[i] = static_cast<float>(candidate.viewpoint.position(i));
+  }
+  message.yaw = static_cast<float>(candidate.viewpoint.yaw);
+  message.gain = static_cast<float>(candidate.gain);
+  message.path_m = static_cast<float>(candidate.cost_m);
+  return message;
+}
+
+}  // namespace
+
+void Executive::publish_mission(const autonomy::MissionEvent* event) {
+  if (event != nullptr) last_event_ = *event;
+  const auto plan = board_.plan.latest();
+  mission_t message{};
+  message.utime = to_utime(board_.clock.now());
+  message.phase = to_string(last_event_.to);
+  if (plan) {
+    const autonomy::PlanningReport& report = plan->report;
+    message.targets = report.targets;
+    message.target = std::min(report.visited + report.unreachable + 1, report.targets);
+  }
+  message.elapsed_s =
+      took_off_ == 0 ? NAN : static_cast<float>(to_seconds(board_.clock.now() - took_off_));
+  message.cause_code = static_cast<std::int32_t>(last_event_.cause);
+  message.cause = shortened(fmt::format("{}: {}", to_string(last_event_.cause), last_event_.text),
+                            mission_t::MAX_CAUSE);
+  bus_.publish(message);
+}
+
+void Executive::publish_plan(const autonomy::Planning::Output& output) {
+  plan_t message{};
+  message.utime = to_utime(output.report.stamp);
+  const auto committed = board_.committed.latest();
+  message.trajectory_id = committed ? committed->id : 0;
+  for (const int id : output.plan.tour) {
+    if (static_cast<int>(message.tour.size()) < plan_t::MAX_TOUR) message.tour.push_back(id);
+  }
+  message.num_tour = static_cast<std::int32_t>(message.tour.size());
+  message.choice = -1;
+  for (const active::Candidate& candidate : output.plan.candidates) {
+    if (static_cast<int>(message.candidates.size()) >= plan_t::MAX_CANDIDATES) break;
+    const bool chosen = output.plan.goal && candidate.viewpoint.id == output.plan.goal->id;
+    if (candidate.refusal != active::Refusal::none && !chosen) continue;
+    if (chosen) message.choice = static_cast<std::int32_t>(message.candidates.size());
+    message.candidates.push_back(to_lcm(candidate));
+  }
+  message.num_candidates = static_cast<std::int32_t>(message.candidates.size());
+  message.reason = shortened(output.report.text, plan_t::MAX_REASON);
+  bus_.publish(message);
+}
+
+void Executive::say_events() {
+  for (const autonomy::MissionEvent& event : board_.events.take_all()) {
+    if (event.cause == autonomy::Cause::armed) took_off_ = event.stamp;
+    spdlog::info("{} → {}: {}: {}", to_string(event.from), to_string(event.to),
+                 to_string(event.cause), event.text);
+    publish_mission(&event);
+  }
+}
+
+void Executive::say_health() {
+  publish_mission(nullptr);
+  health_t message{};
+  message.utime = to_utime(board_.clock.now());
+  message.process = "saker-flight";
+  for (const auto& loop : loops_) {
+    if (const auto health = loop->health()) message.loops.push_back(*health);
+  }
+  message.num_loops = static_cast<std::int32_t>(message.loops.size());
+  message.counters = {counter("packets_dropped", board_.packets.dropped()),
+                      counter("imu_dropped", board_.imu.dropped()),
+                      counter("labelled_dropped", board_.labelled.dropped()),
+                      counter("events_dropped", board_.events.dropped())};
+  message.num_counters = static_cast<std::int32_t>(message.counters.size());
+  bus_.publish(message);
+}
+
+void Executive::say_progress() {
+  std::string loops;
+  double cpu = 0;
+  for (const auto& loop : loops_) {
+    const auto health = loop->health();
+    if (health == nullptr) continue;
+    if (!std::isnan(health->cpu)) cpu += health->cpu;
+    loops += fmt::format(" {} {:.1f}/{:.1f} ms", loop->name(), health->median_ms, health->p95_ms);
+    if (health->misses > 0) loops += fmt::format(" ({} late)", health->misses);
+  }
+  const auto plan = board_.plan.latest();
+  const autonomy::PlanningReport report = plan ? plan->report : autonomy::PlanningReport{};
+  spdlog::info("{}, target {} of {}, {:.2f} CPU;{}", to_string(last_event_.to),
+               std::min(report.visited + report.unreachable + 1, report.targets), report.targets,
+               cpu, loops);
+}
+
+}  // namespace saker::flight
