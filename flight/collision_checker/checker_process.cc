@@ -87,6 +87,7 @@ void CheckerProcess::begin_anew() {
   checker_.emplace(config_, clearance_);
   joiner_ = ScanJoiner();
   newest_chunk_.reset();
+  said_stamp_ = 0;
   scan_.reset();
   heard_trajectory_.reset();
   ++counters_.restarts;
@@ -134,8 +135,9 @@ void CheckerProcess::say_verdict(Time now) {
 }
 
 void CheckerProcess::say_occupancy() {
-  if (checker_->map().stamp() == 0) return;
+  if (checker_->map().stamp() == said_stamp_) return;
   const LoopMeter::Run run(occupancy_meter_);
+  said_stamp_ = checker_->map().stamp();
   for (const occupancy_t& chunk : to_lcm(checker_->grid(), sequence_++)) publish(chunk);
 }
 

@@ -13,8 +13,8 @@
 namespace saker::flight {
 
 /// The collision checker on the bus: hears `_SCAN`, `_TRAJECTORY` and `_ODOMETRY` (for the time),
-/// says `_VERDICT` (10 Hz, and at once after a scan or a trajectory), `_OCCUPANCY` (2 Hz) and
-/// `_HEALTH` (1 Hz).
+/// says `_VERDICT` (10 Hz, and at once after a scan or a trajectory), `_OCCUPANCY` (2 Hz, while
+/// scans come) and `_HEALTH` (1 Hz).
 ///
 /// One thread: handlers keep the newest scan and trajectory, `step` works on them. Of scans that
 /// come faster than they can be integrated, the newest counts. Scans whose sequence goes back are
@@ -75,6 +75,7 @@ class CheckerProcess {
   std::optional<motion::Trajectory> heard_trajectory_;
   std::optional<scan_t> newest_chunk_;  // without its points
   std::int32_t sequence_ = 0;           // of blocks
+  Time said_stamp_ = 0;                 // of the last block
   bool urgent_ = false;                 // a verdict is
   Timer verdict_timer_, occupancy_timer_, health_timer_;
   LoopMeter scan_meter_{"scan"}, verdict_meter_{"verdict"}, occupancy_meter_{"occupancy"};
