@@ -1,5 +1,7 @@
 #include "simulation/collision.h"
 
+#include <algorithm>
+
 namespace saker::simulation {
 namespace {
 
@@ -31,9 +33,10 @@ CollisionMonitor::CollisionMonitor(const RayCaster& caster, const World& world, 
     : caster_(&caster), world_(&world), ground_(ground_materials(world)), radius_(radius_m) {}
 
 void CollisionMonitor::check(const Eigen::Vector3d& centre_sim) {
-  const float reach = static_cast<float>(radius_) + kReach;
-  const auto near = caster_->nearest(centre_sim.cast<float>(), reach, ground_);
-  const double clearance = near ? near->distance - radius_ : kReach;
+  const double matters = std::clamp(min_clearance_, kContactEnds, kReach);
+  const auto near =
+      caster_->nearest(centre_sim.cast<float>(), static_cast<float>(radius_ + matters), ground_);
+  const double clearance = near ? near->distance - radius_ : matters;
   if (near && clearance < min_clearance_) {
     min_clearance_ = clearance;
     nearest_label_ = world_->materials[near->material].label;

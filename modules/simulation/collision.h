@@ -12,10 +12,12 @@ namespace saker::simulation {
 
 /// Counts what a flying sphere touches, and how near it came: distance of its centre to the nearest
 /// triangle of the world that is not ground (each leaf, wire and pane counts, however thin) by
-/// Embree's point query. Ask at 50 Hz or more: at 3 m/s that is every 6 cm. About 20 µs a call.
+/// Embree's point query. Ask at 50 Hz or more: at 3 m/s that is every 6 cm. What is
+/// farther than the least so far is not looked for.
 class CollisionMonitor {
  public:
-  static constexpr float kReach = 6;  ///< m from the surface of the sphere: farther is not measured
+  static constexpr double kReach =
+      6;  ///< m from the surface of the sphere: farther is not measured
 
   CollisionMonitor(const RayCaster& caster, const World& world, double radius_m);
 

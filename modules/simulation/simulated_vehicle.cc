@@ -185,8 +185,7 @@ VehicleTruth SimulatedVehicle::truth() const {
   truth.has_flown = took_off_ != 0;
   truth.collisions = contacts_.collisions() + crashes_;
   if (truth.has_flown)
-    truth.min_clearance_m =
-        std::min(contacts_.min_clearance(), static_cast<double>(CollisionMonitor::kReach));
+    truth.min_clearance_m = std::min(contacts_.min_clearance(), CollisionMonitor::kReach);
   truth.nearest_label = contacts_.nearest_label();
   truth.flight_time_s = static_cast<double>(airborne_ticks_) * kTickSeconds;
   truth.path_m = path_m_;

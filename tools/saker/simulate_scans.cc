@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "core/config_io.h"
+#include "core/error.h"
 #include "core/progress.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
@@ -16,6 +17,10 @@ struct SimulateOptions {
 
 int simulate_scans(const SimulateOptions& options, const CommonOptions& common) {
   const auto scenario = core::load_config<simulation::Scenario>(options.scenario, {});
+  if (scenario.kind == simulation::ScenarioKind::mission) {
+    throw Error(options.scenario +
+                ": kind: mission, expected training or flight: saker experiment flies missions");
+  }
   const OutputFolder out(common);
   std::optional<core::Progress> bar;
   const auto progress = [&](int done, int total) {

@@ -1,0 +1,84 @@
+#include <spdlog/spdlog.h>
+
+#include "core/config_io.h"
+#include "core/error.h"
+#include "process/configuration.h"
+#include "process/process.h"
+#include "saker/output.h"
+#include "sim/real_time.h"
+#include "simulation/scenario.h"
+
+namespace saker::tools {
+namespace {
+
+struct SimOptions {
+  std::string scenario;
+  RealTimeOptions real_time;
+  CommonOptions output;
+};
+
+simulation::MissionConfig read_mission(const std::string& file) {
+  const auto scenario = core::load_config<simulation::Scenario>(file, {});
+  if (scenario.kind != simulation::ScenarioKind::mission)
+    throw Error(file + ": kind: expected mission");
+  return scenario.mission;
+}
+
+/// 0 when it flew, or was ended, without touching anything.
+int simulate(const flight::ProcessOptions& options, const SimOptions& sim) {
+  const auto config =
+      core::load_config<flight::ProcessConfig>(options.config_file, options.settings);
+  const simulation::MissionConfig mission = read_mission(sim.scenario);
+  simulation::SimulatedVehicle vehicle(mission, sim.output.seed);
+  flight::Bus bus(config.bus, options.robot);
+  flight::Presence presence(bus, "saker-sim");
+  presence.claim();
+  RealTime real_time(vehicle, bus, presence, sim.real_time);
+  const OutputFolder out(sim.output);
+  lidar::SensorInfo sensor = vehicle.sensor();
+  sensor.lidar_port = sim.real_time.lidar_port;
+  sensor.imu_port = sim.real_time.imu_port;
+  SimRecorder recorder(out.path(), mission, vehicle, sensor);
+  spdlog::info("{} stands at the take-off point; {} targets", options.robot,
+               vehicle.site().prior.objects.size());
+  SimRecorder::Run run = real_time.run(recorder, [] { return flight::stop_requests() > 0; });
+  run.seed = sim.output.seed;
+  recorder.finish(vehicle, run);
+  spdlog::info("{}; {} collisions, {:.2f} CPU seconds a second",
+               run.landed ? "landed" : "ends as asked", vehicle.truth().collisions,
+               run.cpu_s / run.wall_s);
+  return vehicle.truth().collisions == 0 ? 0 : 1;
+}
+
+void add_options(CLI::App& app, SimOptions& sim) {
+  app.add_option("SCENARIO", sim.scenario, "what to simulate (*.yaml of kind mission)")->required();
+  app.add_option("--factor", sim.real_time.factor, "simulated seconds a second")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  app.add_option("--seed", sim.output.seed, "of world, wind and noise")->capture_default_str();
+  app.add_option("--lidar-port", sim.real_time.lidar_port, "UDP, of this machine")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  app.add_option("--imu-port", sim.real_time.imu_port, "UDP, of this machine")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  app.add_option("-o,--out", sim.output.out, "folder of the results")->type_name("OUT")->required();
+  app.add_flag("--force", sim.output.force, "replace results in OUT");
+}
+
+}  // namespace
+}  // namespace saker::tools
+
+int main(int argc, char** argv) {
+  auto sim = std::make_shared<saker::tools::SimOptions>();
+  return saker::flight::run_program(
+      {.name = "saker-sim",
+       .does = "World, sensor, vehicle and flight controller of one robot in real time: packets "
+               "over UDP, the rest over LCM.",
+       .add_options = [sim](CLI::App& app) { saker::tools::add_options(app, *sim); },
+       .run =
+           [sim](const saker::flight::ProcessOptions& options) {
+             return saker::tools::simulate(options, *sim);
+           }},
+      argc, argv);
+}
