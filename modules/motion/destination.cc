@@ -12,7 +12,7 @@ namespace {
 
 using occupancy::OccupancyGrid;
 
-constexpr int kPopsBetweenLooks = 4096;  // at the clock: a fraction of a millisecond
+constexpr int kBetweenLooks = 4096;  // cells between looks at the clock: under a millisecond
 
 Eigen::Vector3i cell_at(const OccupancyGrid& grid, int offset) {
   const int in_layer = offset % (grid.size.x() * grid.size.y());
@@ -63,7 +63,7 @@ class Wave {
   /// The first reached cell that it meets; none: `enclosed`.
   Destination meet_reached(const core::Budget& budget) {
     for (int pops = 0; !queue_.empty(); ++pops) {
-      if (pops % kPopsBetweenLooks == 0 && budget.seconds_left() <= 0) return {};
+      if (pops % kBetweenLooks == 0 && budget.seconds_left() <= 0) return {};
       const auto [cost, offset] = queue_.top();
       queue_.pop();
       if (cost > cost_[static_cast<std::size_t>(offset)]) continue;
@@ -103,7 +103,8 @@ class Wave {
 
 }  // namespace
 
-std::vector<int> reachable_cells(const FreeSpace& space, const Eigen::Vector3d& start) {
+std::vector<int> reachable_cells(const FreeSpace& space, const Eigen::Vector3d& start,
+                                 const core::Budget& budget) {
   const OccupancyGrid& grid = space.grid();
   std::vector<int> reached;  // those before `next` have been looked around
   std::vector<std::uint8_t> seen(grid.cells.size(), 0);
@@ -121,6 +122,7 @@ std::vector<int> reachable_cells(const FreeSpace& space, const Eigen::Vector3d& 
     if (grid.contains(cell) && space.free(start, grid.centre_of(cell))) reach(cell);
   });
   for (std::size_t next = 0; next < reached.size(); ++next) {
+    if (next % kBetweenLooks == 0 && budget.seconds_left() <= 0) break;
     const Eigen::Vector3i cell = cell_at(grid, reached[next]);
     for (int axis = 0; axis < 3; ++axis) {
       reach(cell + Eigen::Vector3i::Unit(axis));

@@ -10,9 +10,9 @@ namespace saker::motion {
 
 /// Offsets of the free cells that can be reached from `start` from face to face, `start`'s
 /// neighbours first. Empty: nothing next to it is free. A gap less than a cell wider than the
-/// vehicle with its margins may be missed.
-[[nodiscard]] std::vector<int> reachable_cells(const FreeSpace& space,
-                                               const Eigen::Vector3d& start);
+/// vehicle with its margins may be missed. At the deadline it returns those found so far.
+[[nodiscard]] std::vector<int> reachable_cells(const FreeSpace& space, const Eigen::Vector3d& start,
+                                               const core::Budget& budget);
 
 enum class DestinationKind {
   goal,         ///< the goal itself, or as near to it as the tolerance allows

@@ -47,7 +47,11 @@ FreeSpace::FreeSpace(const OccupancyGrid& snapshot, const ClearanceConfig& confi
       grid_(with_exemption(snapshot, exemption, config)),
       field_(grid_, kFarthest_m, occupancy::UnknownCells::occupied),
       clearance_of_vehicle_m_(clearance_m(vehicle_)),
-      inside_of_vehicle_m_(fence.inside_m(vehicle_)) {}
+      inside_of_vehicle_m_(fence.inside_m(vehicle_)) {
+  for (int y = 0; y < grid_.size.y(); ++y)
+    for (int x = 0; x < grid_.size.x(); ++x)
+      inside_polygon_m_.push_back(fence.inside_polygon_m(grid_.centre_of({x, y, 0}).head<2>()));
+}
 
 double FreeSpace::clearance_m(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d from_centres =
@@ -116,7 +120,9 @@ bool FreeSpace::cell_far_enough(const Eigen::Vector3i& cell, double distance_m) 
   if (distance_m < config_.robot_radius_m) return false;  // most cells that are not free end here
   const Eigen::Vector3d p = grid_.centre_of(cell);
   const bool near = near_vehicle(p);
-  return distance_m >= needed_clearance_m(near) && fence_.inside_m(p) >= needed_inside_m(near);
+  const auto column = static_cast<std::size_t>(cell.y() * grid_.size.x() + cell.x());
+  const double inside_m = std::min(fence_.inside_band_m(p.z()), inside_polygon_m_[column]);
+  return distance_m >= needed_clearance_m(near) && inside_m >= needed_inside_m(near);
 }
 
 bool FreeSpace::cell_free(const Eigen::Vector3i& cell) const {

@@ -56,6 +56,7 @@ class FreeSpace {
   Eigen::Vector3d vehicle_;
   occupancy::OccupancyGrid grid_;  // with the exempted unknown cells free
   occupancy::DistanceField field_;
+  std::vector<double> inside_polygon_m_;  // of the geofence, a column of cells; x runs fastest
   double clearance_of_vehicle_m_ = NAN;
   double inside_of_vehicle_m_ = NAN;
 };

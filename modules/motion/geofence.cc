@@ -44,8 +44,10 @@ Geofence::Geofence(const GeofenceConfig& unchecked) {
 }
 
 double Geofence::inside_m(const Eigen::Vector3d& p) const {
-  return std::min({p.z() - lowest_m_, highest_m_ - p.z(), inside_polygon_m(p.head<2>())});
+  return std::min(inside_band_m(p.z()), inside_polygon_m(p.head<2>()));
 }
+
+double Geofence::inside_band_m(double z) const { return std::min(z - lowest_m_, highest_m_ - z); }
 
 double Geofence::inside_polygon_m(const Eigen::Vector2d& p) const {
   double nearest = std::numeric_limits<double>::infinity();

@@ -31,13 +31,14 @@ class Geofence {
 
   /// Metres to the nearest face: positive inside, negative outside.
   [[nodiscard]] double inside_m(const Eigen::Vector3d& p_world) const;
+  /// The same to the upright faces alone, and to top and bottom alone.
+  [[nodiscard]] double inside_polygon_m(const Eigen::Vector2d& p_world) const;
+  [[nodiscard]] double inside_band_m(double z) const;
   [[nodiscard]] bool contains(const Eigen::Vector3d& p_world) const {
     return inside_m(p_world) >= 0;
   }
 
  private:
-  [[nodiscard]] double inside_polygon_m(const Eigen::Vector2d& p) const;
-
   double lowest_m_;
   double highest_m_;
   std::vector<Eigen::Vector2d> corners_;

@@ -104,7 +104,7 @@ class Planning {
       path.push_back(request_.goal);
       return true;
     }
-    const std::vector<int> reached = reachable_cells(space, from);
+    const std::vector<int> reached = reachable_cells(space, from, budget_);
     if (reached.empty())
       return refuse(PlanStatus::start_blocked,
                     line("nothing is free around (%.2f, %.2f, %.2f)", from));
@@ -119,8 +119,8 @@ class Planning {
       case DestinationKind::goal:
         return true;
       case DestinationKind::on_the_way:
-        result_.partial = true;
-        if ((to.point - from).norm() > config_.search.least_progress_m) return true;
+        result_.partial = (to.point - from).norm() > config_.search.least_progress_m;
+        if (result_.partial) return true;
         return refuse(PlanStatus::no_progress,
                       line("what is known to be free ends at (%.1f, %.1f, %.1f)", to.point));
       case DestinationKind::blocked:

@@ -131,8 +131,9 @@ SearchResult search_path(const FreeSpace& space, std::span<const int> reached,
                          const SearchConfig& config, std::uint64_t seed,
                          const core::Budget& budget) {
   SearchResult best;
+  const core::Rng random = core::Rng(seed).fork(0);
   for (int attempt = 0; attempt < config.attempts; ++attempt) {
-    const core::Rng rng = core::Rng(seed).fork(static_cast<std::uint64_t>(attempt));
+    const core::Rng rng = random.fork(static_cast<std::uint64_t>(attempt));
     const ob::SpaceInformationPtr information = information_of(space);
     information->getStateSpace()->setStateSamplerAllocator([&](const ob::StateSpace* of) {
       return std::make_shared<ReachedSampler>(of, space, reached, rng.fork(0));

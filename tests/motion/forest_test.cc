@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "made_world.h"
+#include "motion/verdict.h"
 
 namespace saker::motion {
 namespace {
@@ -45,6 +46,18 @@ TEST(Forest, HundredOfThemAreFlownClearOfEveryTrunkAndWithinLimits) {
               1.03 * config.limits.max_acceleration);
     EXPECT_NEAR((t.states.back().position - kGoal).norm(), 0, 1e-9);
     EXPECT_TRUE(t.states.back().velocity.isZero());
+  }
+}
+
+TEST(Forest, TheCollisionCheckerClearsWhatThePlannerMakes) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const made::World world = made::forest(seed, seed % 2 == 0 ? 60 : 120);
+    const PlanResult result = plan_through(world, seed);
+    ASSERT_EQ(result.status, PlanStatus::ok) << result.reason;
+    const Verdict verdict = check(result.trajectory, result.trajectory.start, *world.grid(),
+                                  {.vehicle = kStart}, ClearanceConfig{}, VerdictConfig{});
+    EXPECT_TRUE(verdict.clear) << verdict.first_hit.transpose();
   }
 }
 
