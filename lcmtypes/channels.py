@@ -165,7 +165,8 @@ def page():
     lines = ["# Channels", "",
              "Made by `lcmtypes/channels.py` from `lcmtypes/*.lcm` and `lcmtypes/channels.txt`; a test compares.", "",
              "A channel's name begins with the robot's: `R1_STATE`. `control` and `bulk` are two LCM networks (keys",
-             "`bus.control_url`, `bus.bulk_url`); bulk never leaves the machine, and `lcm-logger` needs one run for each.",
+             "`bus.control_url`, `bus.bulk_url`); bulk never leaves the machine. `lcm-logger` needs one run for each, on bulk",
+             "with a receive buffer: `--lcm-url='udpm://239.255.76.67:7668?ttl=0&recv_buf_size=2097152'`.",
              "Size: bytes of the largest message; periodic ones on `control` fit into one datagram.", "",
              "| channel | type | network | from → to | rate | size |", "|---|---|---|---|---|---|"]
     for suffix, name, network, sender, receiver, rate in table:

@@ -51,7 +51,7 @@ ScanLog::ScanLog(const std::filesystem::path& file) : log_(checked_file(file).st
   if (expected_ > 0) return;
   throw Error(file.string() +
               ": no _SCAN in it, expected those of the bulk network: "
-              "lcm-logger --lcm-url='udpm://239.255.76.67:7668?ttl=0' FILE");
+              "lcm-logger --lcm-url='udpm://239.255.76.67:7668?ttl=0&recv_buf_size=2097152' FILE");
 }
 
 std::optional<lidar::Frame> ScanLog::next() {
