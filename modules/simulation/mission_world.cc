@@ -97,6 +97,7 @@ std::vector<std::size_t> choose_targets(const World& world, const SE3& T_sim_wor
   std::sort(by_distance.begin(), by_distance.end());
   std::vector<std::size_t> chosen;
   for (int i = 0; i < count; ++i) chosen.push_back(by_distance[static_cast<std::size_t>(i)].second);
+  std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 
@@ -122,8 +123,7 @@ objects::ObjectMap rough_map(const World& world, const std::vector<std::size_t>&
                              const SE3& T_world_sim, double sd, core::Rng& rng) {
   objects::ObjectMap map;
   for (const std::size_t i : targets) {
-    map.objects.push_back(
-        rough(world.objects[i], static_cast<int>(map.objects.size()) + 1, T_world_sim, sd, rng));
+    map.objects.push_back(rough(world.objects[i], static_cast<int>(i + 1), T_world_sim, sd, rng));
   }
   return map;
 }

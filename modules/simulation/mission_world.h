@@ -19,7 +19,7 @@ struct MissionFence {
 struct MissionWorld {
   FlightWorld flight;
   SE3 T_sim_world = SE3::Identity();
-  objects::ObjectMap prior;           ///< in `world`: the targets, roughly
+  objects::ObjectMap prior;           ///< in `world`: the targets, roughly; ids as in the truth
   std::vector<std::size_t> inserted;  ///< movers that events bring in, under the ground till then
   MissionFence fence;
 
