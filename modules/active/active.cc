@@ -13,6 +13,10 @@ ActiveConfig checked_config(const ActiveConfig& config) {
     throw Error("active.visit.separation_deg: " + std::to_string(visit.separation_deg) +
                 ", expected at most 180 / (sides - 1), or a side may find no room");
   }
+  if (visit.standing_s <= 2 * visit.dwell_s) {
+    throw Error("active.visit.standing_s: " + std::to_string(visit.standing_s) +
+                ", expected more than two dwells (dwell_s), or no side is ever seen");
+  }
   const FieldOfViewConfig& view = valid.view;
   if (view.nearest_m >= view.farthest_m) {
     throw Error("active.view.nearest_m: " + std::to_string(view.nearest_m) +

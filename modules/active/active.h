@@ -34,6 +34,7 @@ struct VisitConfig {
   double unknown_worth_m = 5;
   double switch_m = 5;
   double patience_s = 20;
+  double standing_s = 8;
   double progress_m = 0.5;
   double refused_m = 3;
   int most_refusals = 3;
@@ -57,6 +58,9 @@ struct VisitConfig {
             "a viewpoint must be better by this to replace the one that is flown to");
     v.field("patience_s", patience_s, {1, 600}, "s",
             "without coming nearer or seeing a side, until a viewpoint is given up");
+    v.field("standing_s", standing_s, {1, 600}, "s",
+            "the same for a vehicle that stands: more than two dwells, for a place may lie between "
+            "two directions");
     v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
     v.field("refused_m", refused_m, {0, 20}, "m",
             "around a viewpoint that was given up none is tried: it would be given up as well");

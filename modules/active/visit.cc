@@ -1,6 +1,7 @@
 #include "active/visit.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -10,6 +11,7 @@ namespace saker::active {
 namespace {
 
 constexpr double kLongestStep = 2.0;  // s that a decision stands for: two of its periods
+constexpr double kStanding = 0.2;     // m/s and slower
 constexpr double kRadians = std::numbers::pi / 180;
 
 /// "no viewpoint left: 40 occupied, 12 hidden"
@@ -52,7 +54,9 @@ bool VisitPolicy::accept(const ActiveInput& input) {
   if (!finite || (last_stamp_ && input.stamp <= *last_stamp_)) return false;
   elapsed_s_ = last_stamp_ ? std::min(to_seconds(input.stamp - *last_stamp_), kLongestStep) : 0;
   last_stamp_ = input.stamp;
-  body_ = input.T_world_body.translation();
+  const Eigen::Vector3d body = input.T_world_body.translation();
+  stands_ = (body - body_).norm() < kStanding * elapsed_s_;
+  body_ = body;
   grid_ = input.grid;
   surroundings_ = {grid_.get(), input.T_world_odom.inverse()};
   return true;
@@ -66,7 +70,7 @@ void VisitPolicy::observe() {
     Record& record = records_[index];
     if (!record.sides.look(std::atan2(to_body.y(), to_body.x()), elapsed_s_)) continue;
     record.goals = 0;
-    if (goal_ && goal_->target == index) goal_->idle_s = 0;
+    if (goal_ && goal_->target == index) goal_->idle_s = goal_->standing_s = 0;
     if (record.sides.count() >= config_.visit_policy.sides) close(index, seen_status(index), "");
   }
 }
@@ -83,13 +87,16 @@ void VisitPolicy::watch_progress() {
   const VisitConfig& config = config_.visit_policy;
   const double distance = (body_ - goal_->viewpoint.position).norm();
   goal_->idle_s += elapsed_s_;
+  goal_->standing_s = stands_ ? goal_->standing_s + elapsed_s_ : 0;
   if (distance < goal_->closest_m - config.progress_m) {
     goal_->closest_m = distance;
     goal_->idle_s = 0;
   }
-  if (goal_->idle_s > config.patience_s) {
-    give_up_viewpoint("for " + std::to_string(static_cast<int>(config.patience_s)) +
-                      " s the vehicle came no nearer and saw nothing new");
+  if (goal_->idle_s > config.patience_s || goal_->standing_s > config.standing_s) {
+    char reason[100];
+    std::snprintf(reason, sizeof(reason),
+                  "the vehicle came no nearer than %.1f m and saw nothing new", goal_->closest_m);
+    give_up_viewpoint(reason);
   }
 }
 

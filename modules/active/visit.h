@@ -33,8 +33,9 @@ class VisitPolicy : public Policy {
   struct Goal {
     int target;  ///< index
     Viewpoint viewpoint;
-    double closest_m;   ///< that the vehicle came
-    double idle_s = 0;  ///< since it came nearer or saw a side
+    double closest_m;       ///< that the vehicle came
+    double idle_s = 0;      ///< since it came nearer or saw a side
+    double standing_s = 0;  ///< since it moved or saw a side
   };
 
   [[nodiscard]] bool accept(const ActiveInput& input);
@@ -64,6 +65,7 @@ class VisitPolicy : public Policy {
   std::optional<Time> last_stamp_;
   double elapsed_s_ = 0;                                   ///< since the last decision
   Eigen::Vector3d body_ = Eigen::Vector3d::Constant(NAN);  ///< world, m
+  bool stands_ = false;                                    ///< since the last decision
   std::shared_ptr<const occupancy::OccupancyGrid> grid_;
   Surroundings surroundings_;
 

@@ -215,10 +215,31 @@ TEST(Visit, KnowsThatTheBlockIsInOdom) {
 TEST(Visit, VehicleThatNeverMovesEnds) {
   Flight flight(kStreet);
   flight.speed = 0;
-  const double each = kVisit.attempts * kVisit.most_refusals * (kVisit.patience_s + 2);
+  const double each = kVisit.attempts * kVisit.most_refusals * (kVisit.standing_s + 3);
   EXPECT_LT(flight.fly(1000), 4 * each);
   EXPECT_EQ(flight.plan.unreachable, 4);
   EXPECT_NE(flight.target(2).reason.find("no nearer"), std::string::npos);
+}
+
+TEST(Visit, VehicleThatWandersButComesNoNearerEnds) {
+  Flight flight(kStreet);
+  int decisions = 0;
+  for (; decisions < 1000 && flight.decide().goal; ++decisions) {
+    flight.body.x() = decisions % 2 ? -1 : 1;
+  }
+  EXPECT_LT(decisions, 4 * kVisit.attempts * kVisit.most_refusals * (kVisit.patience_s + 3));
+  EXPECT_EQ(flight.plan.unreachable, 4);
+}
+
+TEST(Visit, DetourIsFlownToItsEndWhileTheVehicleMoves) {
+  Flight flight({car(30, 0)});
+  flight.decide();
+  const int goal = flight.plan.goal->id;
+  for (int second = 0; second + 2 < kVisit.patience_s;
+       ++second) {  // away from it, around something
+    flight.body.y() += 0.5;
+    EXPECT_EQ(flight.decide().goal->id, goal);
+  }
 }
 
 TEST(Visit, MotionThatRefusesEverythingEnds) {
@@ -318,6 +339,9 @@ TEST(Policy, ConfigurationThatCannotBeIsRefused) {
   ActiveConfig crowded;
   crowded.visit_policy.sides = 3;  // and 120° apart: the third may find no room
   EXPECT_THROW((void)make_policy(crowded, kTable, {}, everywhere), Error);
+  ActiveConfig hasty;
+  hasty.visit_policy.standing_s = hasty.visit_policy.dwell_s;
+  EXPECT_THROW((void)make_policy(hasty, kTable, {}, everywhere), Error);
   ActiveConfig blind;
   blind.view.nearest_m = blind.view.farthest_m;
   EXPECT_THROW((void)make_policy(blind, kTable, {}, everywhere), Error);

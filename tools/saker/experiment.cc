@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "core/config_io.h"
 #include "core/error.h"
@@ -13,6 +14,7 @@
 #include "saker/mission_run.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
+#include "simulation/mission_world.h"
 #include "simulation/scenario.h"
 
 namespace saker::tools {
@@ -29,6 +31,7 @@ struct ExperimentOptions {
 /// A run, and the folder inside OUT that it has for itself.
 struct Job {
   MissionRun run;
+  std::string policy;
   fs::path folder;
 };
 
@@ -62,11 +65,24 @@ std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& 
         const std::uint64_t seed = common.seed + static_cast<std::uint64_t>(i);
         MissionRun run{fs::path(scenario).stem(), site, chosen, seed, common.threads};
         fs::path folder = folder_of(options, run, policy);
-        jobs.push_back({std::move(run), std::move(folder)});
+        jobs.push_back({std::move(run), policy, std::move(folder)});
       }
     }
   }
   return jobs;
+}
+
+/// A site without room is an error before anything is flown.
+void check_sites(const std::vector<Job>& jobs) {
+  std::set<std::pair<std::string, std::uint64_t>> checked;
+  for (const Job& job : jobs) {
+    if (!checked.emplace(job.run.scenario, job.run.seed).second) continue;
+    try {
+      (void)simulation::build_mission_world(job.run.site, job.run.seed);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}, seed {}: {}", job.run.scenario, job.run.seed, error.what()));
+    }
+  }
 }
 
 /// What must be the same for an interrupted experiment to go on.
@@ -98,6 +114,7 @@ std::optional<Json> finished(const fs::path& folder) {
 Json run_or_read(const Job& job, const CommonOptions& common, bool alone) {
   const fs::path folder = fs::path(common.out) / job.folder;
   if (auto results = finished(folder)) return *results;
+  spdlog::info("{} with {}, seed {}", job.run.scenario, job.policy, job.run.seed);
   if (alone) return fly(job.run, folder);
   CommonOptions inner = common;
   inner.out = folder;
@@ -106,9 +123,15 @@ Json run_or_read(const Job& job, const CommonOptions& common, bool alone) {
   return fly(job.run, out.path());
 }
 
-/// Whether the mission went as it should.
+/// Whether the mission went as it should; says what did not.
 bool good(const Json& run) {
-  return run.at("succeeded") && run.at("collisions") == 0 && run.at("found") == run.at("targets");
+  const bool found = run.at("found") == run.at("targets");
+  if (run.at("succeeded") && run.at("collisions") == 0 && found) return true;
+  spdlog::warn("{}, seed {}: {} at {}, {} of {} targets found, {} collisions",
+               run["scenario"].get<std::string>(), run["seed"].get<int>(),
+               run["outcome"].get<std::string>(), run["phase"].get<std::string>(),
+               run["found"].get<int>(), run["targets"].get<int>(), run["collisions"].get<int>());
+  return false;
 }
 
 int experiment(ExperimentOptions options, const CommonOptions& common) {
@@ -117,6 +140,7 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
     options.policies = {active::enum_names(policy)[static_cast<std::size_t>(policy)]};
   }
   const std::vector<Job> jobs = jobs_of(options, common);
+  check_sites(jobs);
   const std::string wanted = manifest(options, common);
   CommonOptions outer = common;
   outer.force = common.force || goes_on(common, wanted);
@@ -127,15 +151,10 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
   core::write_file(out / "experiment.json", wanted);
 
   std::vector<Json> results;
-  int fell_short = 0;
+  bool all_good = true;
   for (const Job& job : jobs) {
     results.push_back(run_or_read(job, common, jobs.size() == 1));
-    if (good(results.back())) continue;
-    ++fell_short;
-    spdlog::warn("{} seed {}: {} at {}, {} of {} targets found, {} collisions", job.run.scenario,
-                 job.run.seed, results.back()["outcome"].get<std::string>(),
-                 results.back()["phase"].get<std::string>(), results.back()["found"].get<int>(),
-                 results.back()["targets"].get<int>(), results.back()["collisions"].get<int>());
+    all_good = good(results.back()) && all_good;
   }
   const std::vector<TableRow> rows = pool(results);
   if (jobs.size() > 1) {
@@ -146,7 +165,7 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
   }
   core::write_file(out / "table.txt", table_text(rows));
   std::cout << table_text(rows);
-  return fell_short == 0 ? 0 : 1;
+  return all_good ? 0 : 1;
 }
 
 }  // namespace

@@ -32,8 +32,16 @@ void MissionRecorder::on_scan(const autonomy::IngestedScan& scan) {
   ++scans_;
 }
 
-void MissionRecorder::on_plan(const autonomy::PlanningReport& report, const active::ActivePlan&) {
+void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
+                              const active::ActivePlan& plan) {
   if (report.targets > 0) progress_.update(report.visited + report.unreachable);
+  if (plan.goal && plan.goal->id != viewpoint_) {
+    viewpoint_ = plan.goal->id;
+    const Eigen::Vector3d& p = plan.goal->position;
+    spdlog::debug("{:7.2f} s  target {}, {} pending: to viewpoint {} at ({:.1f}, {:.1f}, {:.1f})",
+                  to_seconds(report.stamp - start_), plan.goal->target_id, plan.pending, viewpoint_,
+                  p.x(), p.y(), p.z());
+  }
   using enum autonomy::PlanningStatus;
   if (report.status != refused && report.status != gave_up && report.status != home_unreachable) {
     return;

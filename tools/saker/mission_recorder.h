@@ -42,6 +42,7 @@ class MissionRecorder : public autonomy::MissionObserver {
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;
   std::vector<StampedPose> true_poses_;
+  int viewpoint_ = -1;  ///< that is flown to
   std::map<std::string, int> refusals_;
   nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
   long events_left_out_ = 0;
