@@ -40,9 +40,9 @@ struct VehicleState {
   bool armed = false;
   VehicleMode mode = VehicleMode::idle;
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< body in a level frame
-  double height_m = NAN;         ///< by the barometer, above where it was armed
-  double battery_share = NAN;    ///< 0 … 1
-  std::uint32_t faults = 0;      ///< VehicleFault bits
+  double height_m = NAN;       ///< by the barometer, above where it was armed
+  double battery_share = NAN;  ///< 0 … 1
+  std::uint32_t faults = 0;    ///< VehicleFault bits
 };
 
 enum class CommandKind { arm, disarm, takeoff, hold, land };

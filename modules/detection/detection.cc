@@ -1,6 +1,7 @@
 #include "detection/detection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "detection/local_frame.h"
@@ -34,6 +35,7 @@ objects::Detections Detection::detect(std::span<const LabelledScan> window) {
   result.stamp = window.back().stamp;
   gather(window, table_, config_.window, window_);
   ground_.fit(window_.ground, config_.window.range_m);
+  surroundings_.fill(window_.others, config_.window.other_stride, ground_);
   detect_vehicles(result);
   detect_trunks(result);
   for (const objects::GroundPlane& plane : ground_.planes()) {
@@ -50,7 +52,6 @@ void Detection::detect_vehicles(objects::Detections& result) {
 }
 
 void Detection::detect_trunks(objects::Detections& result) {
-  surroundings_.fill(window_.others, config_.window.other_stride, ground_);
   keep_above_ground(window_.cylinders, config_.trunk.lowest_m, config_.trunk.highest_m);
   for (const Indices& cluster : clusters(window_.cylinders, nullptr, config_.trunk_clusters)) {
     add_trunk(cluster, result);
@@ -100,7 +101,7 @@ bool Detection::stands_free(const Indices& indices, const objects::Cylinder& cyl
     const double height = window_.cylinders[i].position.z() - cylinder.root.z();
     own += height >= c.lowest_m && height <= c.highest_m ? 1 : 0;
   }
-  const int around = surroundings_.count(cylinder.root.head<2>().cast<float>(), cylinder.radius);
+  const int around = surroundings_.around(cylinder.root.head<2>().cast<float>(), cylinder.radius);
   return around <= c.most_share * own;
 }
 
@@ -122,7 +123,9 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
       fit_vehicle(points, moved(T_local_level, window_.sensors), config_.vehicle);
   if (fit.status == VehicleStatus::too_large) split_vehicle(indices, splits, result);
   if (fit.status != VehicleStatus::fitted) return;
-  objects::Measurement m = measurement(window_.cuboids, indices, result);
+  const int others = surroundings_.inside(transformed(T_level_local, fit.cuboid));
+  objects::Measurement m = classified(class_probability({window_.cuboids, indices, others}),
+                                      static_cast<int>(indices.size()), result.stamp);
   m.model = transformed(window_.T_lidar_level * T_level_local, fit.cuboid);
   m.covariance = fit.covariance;
   m.front_log_odds = fit.front_log_odds;
@@ -153,39 +156,57 @@ void Detection::add_trunk(const Indices& indices, objects::Detections& result) {
   }
   const TrunkFit fit = fit_trunk(points, T_local_level * window_.sensors.front(), config_.trunk);
   if (fit.status != TrunkStatus::fitted) return;
-  if (!stands_free(indices, transformed(T_level_local, fit.cylinder))) return;
+  const objects::Cylinder cylinder = transformed(T_level_local, fit.cylinder);
+  if (!stands_free(indices, cylinder)) return;
   const SE3 T_lidar_local = window_.T_lidar_level * T_level_local;
-  objects::Measurement m = measurement(window_.cylinders, indices, result);
+  const int own = static_cast<int>(indices.size());
+  std::vector<double> probability =
+      class_probability({window_.cylinders, indices, surroundings_.inside(cylinder)});
+  weigh_crown(surroundings_.crown_odds(cylinder, own), probability);
+  objects::Measurement m = classified(std::move(probability), own, result.stamp);
   m.model = transformed(T_lidar_local, fit.cylinder);
   m.covariance = rotated(fit.covariance, T_lidar_local.linear(), fit.cylinder.axis);
   result.measurements.push_back(std::move(m));
 }
 
-objects::Measurement Detection::measurement(const std::vector<ClassPoint>& points,
-                                            const Indices& indices,
-                                            const objects::Detections& result) const {
+objects::Measurement Detection::classified(std::vector<double> class_probability, int points,
+                                           Time stamp) const {
   objects::Measurement m;
-  m.stamp = result.stamp;
-  m.points = static_cast<int>(indices.size());
-  m.class_probability = class_probability(points, indices);
+  m.stamp = stamp;
+  m.points = points;
+  m.class_probability = std::move(class_probability);
   m.class_id = static_cast<objects::ClassId>(
       std::max_element(m.class_probability.begin(), m.class_probability.end()) -
       m.class_probability.begin());
   return m;
 }
 
-/// Mean over the points; what a label leaves is spread over the other classes.
-std::vector<double> Detection::class_probability(const std::vector<ClassPoint>& points,
-                                                 const Indices& indices) const {
+void Detection::weigh_crown(double odds, std::vector<double>& class_probability) const {
+  double sum = 0;
+  for (std::size_t id = 0; id < class_probability.size(); ++id) {
+    const objects::ObjectClass& c = table_.classes[id];
+    if (c.shape == objects::Shape::cylinder) {
+      class_probability[id] *= c.crowned ? std::sqrt(odds) : 1 / std::sqrt(odds);
+    }
+    sum += class_probability[id];
+  }
+  for (double& p : class_probability) p /= sum;
+}
+
+/// Mean over the points inside the model (paper, "Uncertainty modeling"), those of no object (class
+/// 0) included; what a label leaves is spread over the other classes.
+std::vector<double> Detection::class_probability(const Inside& inside) const {
   std::vector<double> sum(table_.classes.size(), 0);
   double rest = 0;
-  for (const int i : indices) {
-    const double p = points[i].probability;
+  for (const int i : inside.indices) {
+    const double p = inside.points[i].probability;
     const double share = (1 - p) / std::max(table_.size() - 1, 1);
-    sum[points[i].class_id] += p - share;
+    sum[inside.points[i].class_id] += p - share;
     rest += share;
   }
-  for (double& p : sum) p = (p + rest) / static_cast<double>(indices.size());
+  sum[0] += inside.others;
+  const double count = static_cast<double>(inside.indices.size()) + inside.others;
+  for (double& p : sum) p = (p + rest) / count;
   return sum;
 }
 

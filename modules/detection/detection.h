@@ -68,6 +68,13 @@ class Detection {
  private:
   using Indices = std::vector<int>;
 
+  /// Points of one shape that an object is made of, and what else lies inside its model.
+  struct Inside {
+    const std::vector<ClassPoint>& points;
+    const Indices& indices;
+    int others = 0;
+  };
+
   void detect_vehicles(objects::Detections& result);
   void detect_trunks(objects::Detections& result);
   void add_vehicle(const Indices& indices, int splits, objects::Detections& result);
@@ -79,11 +86,12 @@ class Detection {
   void keep_above_ground(std::vector<ClassPoint>& points, double lowest, double highest) const;
   [[nodiscard]] std::vector<Indices> clusters(const std::vector<ClassPoint>& points,
                                               const Indices* of, const ClusterConfig& config);
-  [[nodiscard]] std::vector<double> class_probability(const std::vector<ClassPoint>& points,
-                                                      const Indices& indices) const;
-  [[nodiscard]] objects::Measurement measurement(const std::vector<ClassPoint>& points,
-                                                 const Indices& indices,
-                                                 const objects::Detections& result) const;
+  [[nodiscard]] std::vector<double> class_probability(const Inside& inside) const;
+  /// A measurement that has its classes, and lacks the model.
+  [[nodiscard]] objects::Measurement classified(std::vector<double> class_probability, int points,
+                                                Time stamp) const;
+  /// Bayes' rule: the odds of trunks against poles by what stands around the upper part.
+  void weigh_crown(double odds, std::vector<double>& class_probability) const;
 
   DetectionConfig config_;
   objects::ClassTable table_;

@@ -54,6 +54,9 @@ TrunkFit fit_trunk(const std::vector<Eigen::Vector3d>& points, const Eigen::Vect
   result.cylinder.axis = axis;
   result.cylinder.radius = fit->radius;
   result.cylinder.height = highest->z() / axis.z();
+  if (result.status == TrunkStatus::fitted &&
+      result.cylinder.height < 2 * config.least_slenderness * fit->radius)
+    result.status = TrunkStatus::no_cylinder;
   result.covariance = covariance_of(*fit, axis, config);
   return result;
 }

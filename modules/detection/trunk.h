@@ -17,7 +17,8 @@ struct TrunkConfig {
   double least_height_m = 1.0;
   double most_gap_m = 1.5;
   double least_radius_m = 0.02;
-  double most_radius_m = 0.7;
+  double most_radius_m = 0.5;
+  double least_slenderness = 3;
   double most_lean_deg = 20;
   double most_residual_m = 0.12;
   double ground_m = 0.06;
@@ -35,6 +36,8 @@ struct TrunkConfig {
             "between the ground and the lowest point; what floats higher is refused");
     v.field("least_radius_m", least_radius_m, {0.001, 1}, "m", "a thinner one is refused");
     v.field("most_radius_m", most_radius_m, {0.01, 5}, "m", "a thicker one is refused");
+    v.field("least_slenderness", least_slenderness, {0, 100}, "",
+            "of the height that was seen to the diameter: a pier between two windows is stouter");
     v.field("most_lean_deg", most_lean_deg, {1, 80}, "deg", "off the ground's normal");
     v.field("most_residual_m", most_residual_m, {0.01, 1}, "m",
             "root mean square distance to the surface; more is no cylinder");

@@ -23,7 +23,8 @@ struct ObjectClass {
   Shape shape = Shape::none;
   bool target = false;  ///< guides active mapping; the others only hold the pose
   std::vector<double>
-      label_ids;  ///< SemanticKITTI ids merged into this class; the first one is written
+      label_ids;         ///< SemanticKITTI ids merged into this class; the first one is written
+  bool crowned = false;  ///< leaves stand around its upper part
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -32,6 +33,8 @@ struct ObjectClass {
     v.field("target", target, "", "whether it is mapped actively");
     v.field("label_ids", label_ids, {0, 65535}, "SemanticKITTI id",
             "ids merged into the class; the first is written");
+    v.field("crowned", crowned, "",
+            "whether leaves stand around its upper part: tells trunks from poles");
   }
 };
 
@@ -40,7 +43,7 @@ struct ClassTable {
   std::vector<ObjectClass> classes = {
       {"other", Shape::none, false, {99}},
       {"vehicle", Shape::cuboid, true, {10, 13, 18, 20, 252, 257, 258, 259}},
-      {"trunk", Shape::cylinder, false, {71}},
+      {"trunk", Shape::cylinder, false, {71}, true},
       {"pole", Shape::cylinder, false, {80}},
       {"ground", Shape::plane, false, {40, 44, 48, 49, 60, 72}},
   };

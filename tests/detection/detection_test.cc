@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "made_scene.h"
 
@@ -9,6 +11,14 @@ namespace saker::detection {
 namespace {
 
 using testing::SceneBuilder;
+using testing::visible_box;
+using testing::visible_cylinder;
+
+SE3 sensor_at(double height) {
+  SE3 T = SE3::Identity();
+  T.translation().z() = height;
+  return T;
+}
 
 /// A parked vehicle, a trunk and a pole on a slope, seen from a sensor that flies by, tilted.
 std::vector<LabelledScan> flight(double slope) {
@@ -85,7 +95,46 @@ TEST(Detection, SaysClassProbabilitiesThatSumToOne) {
     double sum = 0;
     for (const double p : m.class_probability) sum += p;
     EXPECT_NEAR(sum, 1, 1e-9);
-    EXPECT_NEAR(m.class_probability[m.class_id], 0.9, 1e-6);
+    EXPECT_EQ(m.class_probability[m.class_id], *std::ranges::max_element(m.class_probability));
+  }
+}
+
+TEST(Detection, PointsOfNoObjectInsideAVehicleSpeakAgainstIt) {
+  SceneBuilder scene;
+  core::Rng rng(5);
+  const std::vector<Eigen::Vector3d> box =
+      visible_box({8, 0, 0.3}, Eigen::Vector3d(0, 0, 2), 2000, 0.02, rng);
+  scene.add_ground(0, 20, rng);
+  scene.add(box, 1);
+  scene.add(visible_box({8, 0, 0.3, 4.2, 1.5}, Eigen::Vector3d(0, 0, 2), 2000, 0.02, rng), 0);
+  Detection detection({}, {});
+  const std::vector<LabelledScan> window = {scene.scan(0, sensor_at(2))};
+  const objects::Detections found = detection.detect(window);
+  ASSERT_EQ(found.measurements.size(), 1u);
+  EXPECT_LT(found.measurements[0].class_probability[1], 0.75);
+}
+
+TEST(Detection, CylinderWithLeavesAboveItIsRatherATrunkAndABareOneAPole) {
+  for (const bool leaves : {true, false}) {
+    SceneBuilder scene;
+    core::Rng rng(6);
+    scene.add_ground(0, 20, rng);
+    const Eigen::Vector3d foot(8, 0, 0);
+    scene.add(visible_cylinder(foot, Eigen::Vector3d::UnitZ(), 0.15, 3, {0, 0, 2}, 300, 0.01, rng),
+              2);
+    std::vector<Eigen::Vector3d> crown;
+    for (int i = 0; leaves && i < 3000; ++i) {
+      crown.push_back(foot +
+                      Eigen::Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(2.5, 5)));
+    }
+    scene.add(crown, 0);
+    Detection detection({}, {});
+    const std::vector<LabelledScan> window = {scene.scan(0, sensor_at(2))};
+    const objects::Detections found = detection.detect(window);
+    ASSERT_EQ(found.measurements.size(), 1u) << leaves;
+    const std::vector<double>& p = found.measurements[0].class_probability;
+    const SurroundingsConfig odds;
+    EXPECT_NEAR(p[2] / p[3], 36 * (leaves ? odds.leafy_odds : 1 / odds.bare_odds), 1e-3);
   }
 }
 
