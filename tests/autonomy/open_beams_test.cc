@@ -1,0 +1,87 @@
+#include "autonomy/open_beams.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace saker::autonomy {
+namespace {
+
+const lidar::SensorInfo kSensor =
+    lidar::SensorInfo::make_os1(16, 512, lidar::PacketProfile::kRng19Rfl8Sig16Nir16);
+
+/// Everything below the horizon answers at 10 m, along its beam; nothing above it.
+class OpenBeamsTest : public testing::Test {
+ protected:
+  OpenBeamsTest() : rays(kSensor), beams(kSensor) {
+    scan.rows = kSensor.rows;
+    scan.columns = kSensor.columns;
+    scan.points.assign(static_cast<std::size_t>(scan.rows) * scan.columns,
+                       Eigen::Vector3f::Constant(NAN));
+    for (int row = 0; row < scan.rows; ++row) {
+      for (int column = 0; column < scan.columns; ++column) {
+        if (ray(row, column).direction.z() < 0) {
+          at(row, column) = ray(row, column).origin + 10 * ray(row, column).direction;
+        }
+      }
+    }
+  }
+
+  const lidar::RayTable::Ray& ray(int row, int column) const {
+    const int shift = kSensor.pixel_shift_by_row[row];
+    return rays.ray(row, (column - shift + 2 * scan.columns) % scan.columns);
+  }
+  Eigen::Vector3f& at(int row, int column) {
+    return scan.points[static_cast<std::size_t>(row) * scan.columns + column];
+  }
+  Eigen::Vector3f filled(int row, int column) {
+    return beams.added_to(scan)[static_cast<std::size_t>(row) * scan.columns + column];
+  }
+
+  lidar::RayTable rays;
+  OpenBeams beams;
+  lidar::Scan scan;
+};
+
+TEST_F(OpenBeamsTest, SkyBecomesPointsFarAwayAlongTheirBeams) {
+  const Eigen::Vector3f sky = filled(0, 100);
+  EXPECT_NEAR(sky.norm(), OpenBeams::kOpen_m, 0.1);
+  EXPECT_LT(sky.normalized().cross(ray(0, 100).direction).norm(), 1e-3);
+}
+
+TEST_F(OpenBeamsTest, ReturnsStayAsTheyAre) { EXPECT_EQ(filled(15, 100), at(15, 100)); }
+
+TEST_F(OpenBeamsTest, ASingleDropOutIsNotOpen) {
+  at(12, 50).setConstant(NAN);
+  EXPECT_TRUE(filled(12, 50).hasNaN());
+}
+
+TEST_F(OpenBeamsTest, WhatBordersOnAReturnIsNotOpen) {
+  at(2, 200) = 5 * ray(2, 200).direction;
+  for (int row = 1; row <= 3; ++row) {
+    for (int column = 199; column <= 201; ++column) {
+      if (row == 2 && column == 200) continue;
+      EXPECT_TRUE(filled(row, column).hasNaN());
+    }
+  }
+  EXPECT_FALSE(filled(2, 203).hasNaN());
+}
+
+TEST_F(OpenBeamsTest, AColumnThatDidNotComeIsNotOpen) {
+  for (int row = 0; row < scan.rows; ++row) {
+    for (int lost = 300; lost < 316; ++lost) {
+      at(row, (lost + kSensor.pixel_shift_by_row[row] + scan.columns) % scan.columns)
+          .setConstant(NAN);
+    }
+  }
+  const int column = (308 + kSensor.pixel_shift_by_row[0] + scan.columns) % scan.columns;
+  EXPECT_TRUE(filled(0, column).hasNaN());
+}
+
+TEST_F(OpenBeamsTest, AnUnorganisedScanHasNone) {
+  scan.rows = 0;
+  EXPECT_TRUE(filled(0, 100).hasNaN());
+}
+
+}  // namespace
+}  // namespace saker::autonomy
