@@ -18,6 +18,15 @@ std::int32_t offset_of(const lidar::Scan& scan, std::size_t i) {
   return i < scan.offset_ns.size() ? scan.offset_ns[i] : 0;
 }
 
+/// What stays of a pose's error when the next scan is registered. The posterior P = P I P splits
+/// into what the prior and what the map brought in; the prior hangs on the last pose, so its part
+/// adds up from scan to scan; the map's part is fresh noise, of which a share goes into the map.
+Matrix6d drift(const Matrix6d& posterior, const Matrix6d& prior, double share) {
+  const Matrix6d of_prior = posterior * prior.ldlt().solve(posterior);
+  const Matrix6d sum = share * posterior + (1 - share) * of_prior;
+  return 0.5 * (sum + sum.transpose());
+}
+
 }  // namespace
 
 const char* to_string(OdometryStatus status) {
@@ -150,8 +159,9 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
   OdometryEstimate estimate;
   estimate.stamp = scan.stamp;
   estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
-  // Both ends of the motion carry the error of a registration.
-  estimate.covariance = (fits ? 2 : 1) * fit.registration.covariance;
+  estimate.covariance =
+      fits ? drift(fit.registration.covariance, prediction.prior.covariance, config_.drift_share)
+           : fit.registration.covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
   estimate.points = fit.sweep.referred_to_stamp().deskewed(scan);

@@ -25,6 +25,7 @@ struct OdometryConfig {
   int first_rounds = 5;
   double prune_every_s = 1;
   int restart_after = 5;
+  double drift_share = 0.5;
   VoxelMapConfig map;
   RegistrationConfig registration;
   AdaptiveGateConfig gate;
@@ -47,6 +48,10 @@ struct OdometryConfig {
             "how often far and old voxels are dropped");
     v.field("restart_after", restart_after, {1, 1000}, "",
             "scans in a row that do not fit the map, until a new map begins at the prediction");
+    v.field(
+        "drift_share", drift_share, {0, 2}, "",
+        "of a registration's variance that stays as drift: a scan's noise goes with the next "
+        "scan, but for its share in the map; on flights the error of 10 s is that of 0.1 to 0.7");
     v.group("map", map, "the local map");
     v.group("registration", registration, "scan to map");
     v.group("gate", gate, "how far a point may be from the map");
@@ -78,7 +83,8 @@ struct OdometryDiagnostics {
 struct OdometryEstimate {
   Time stamp = 0;
   SE3 T_odom_lidar = SE3::Identity();
-  /// Of the motion since the last scan; 0 for the first scan and a refused one.
+  /// What the motion since the last scan adds to the drift, so that sums over many scans hold; 0
+  /// for the first scan and a refused one.
   Matrix6d covariance = Matrix6d::Constant(NAN);
   OdometryStatus status = OdometryStatus::refused;
   OdometryReason reason = OdometryReason::none;
