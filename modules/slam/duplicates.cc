@@ -1,13 +1,24 @@
 #include "slam/duplicates.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace saker::slam {
 namespace {
 
+/// How far apart the axes of two cylinders may be at the ground: side by side, or one inside the
+/// other, as a thick trunk that was fitted around a pole.
+double cylinder_gate_m(const Model& a, const Model& b, const DuplicateConfig& config) {
+  if (is_cuboid(a) || is_cuboid(b)) return config.cylinder_distance_m;
+  const double overlap = std::get<objects::Cylinder>(a).radius +
+                         std::get<objects::Cylinder>(b).radius + config.touching_m;
+  return std::max(config.cylinder_distance_m, overlap);
+}
+
 bool one_object(const Landmark& a, const Landmark& b, const DuplicateConfig& config) {
-  const AssociationConfig gates{config.cuboid_distance_m, config.cylinder_distance_m,
-                                AssociationConfig{}.height_gate_m, 1};
+  AssociationConfig gates;
+  gates.cuboid_gate_m = config.cuboid_distance_m;
+  gates.cylinder_gate_m = cylinder_gate_m(a.model, b.model, config);
   return std::isfinite(association_distance(a.model, b.model, true, gates));
 }
 

@@ -12,7 +12,7 @@ namespace saker::slam {
 struct GraphConfig {
   int iterations = 4;
   double function_tolerance = 1e-5;
-  double robust_scale = 6;
+  double robust_scale = 3;
   double shorter_weight = 0.25;
 
   template <class Visitor>
@@ -21,9 +21,10 @@ struct GraphConfig {
             "most Levenberg-Marquardt steps a cycle; the start is the last cycle's estimate");
     v.field("function_tolerance", function_tolerance, {0, 1}, "",
             "relative decrease of the cost at which a cycle ends");
-    v.field("robust_scale", robust_scale, {0.1, 1000}, "",
-            "Cauchy's scale on whitened errors of objects: half weight at 36, the 99.995 % "
-            "quantile of nine degrees of freedom, so that noise passes and gross errors do not");
+    v.field(
+        "robust_scale", robust_scale, {0.1, 1000}, "",
+        "Cauchy's scale on whitened errors of objects: half weight at 9, the mean of nine degrees "
+        "of freedom; parts taken for wholes, far from where covariances hold, weigh little");
     v.field("shorter_weight", shorter_weight, {0.01, 1}, "",
             "of the length's error where a vehicle was measured shorter than it is: a hidden end; "
             "0.25 makes of many "

@@ -8,7 +8,6 @@ namespace {
 
 using objects::Cuboid;
 
-constexpr double kMostLog = 12;  // of odds between classes: later measurements can still turn them
 constexpr std::size_t kRecentWindows = 10;  // 5 s: half a metre a second shows
 constexpr double kMostFront = 10;           // the same for front and back
 
@@ -22,7 +21,15 @@ void fuse_class(Landmark& landmark, const std::vector<double>& log_probability) 
   const std::size_t count = std::min(fused.size(), log_probability.size());
   for (std::size_t i = 0; i < count; ++i) fused[i] += log_probability[i];
   const double highest = *std::max_element(fused.begin(), fused.end());
-  for (double& value : fused) value = std::max(value - highest, -kMostLog);
+  for (double& value : fused) value -= highest;
+}
+
+double logit(double probability) { return std::log(probability / (1 - probability)); }
+
+/// How much one window speaks for an object against clutter.
+double evidence(double shape_probability, const LandmarkConfig& config) {
+  const double p = std::clamp(shape_probability, config.class_clamp, 1 - config.class_clamp);
+  return logit(p) - logit(config.clutter_probability);
 }
 
 std::vector<double> clamped_log(const std::vector<double>& probability, double least) {
@@ -47,6 +54,13 @@ void remember(Landmark& landmark, const Observation& observation) {
   } else {
     all.insert(at, observation);
   }
+}
+
+/// Of the longer edge: the length, whichever way the cuboid was named.
+double length_sd(const objects::Measurement& measured) {
+  const auto& size = std::get<Cuboid>(measured.model).size;
+  const int longer = size.x() >= size.y() ? 0 : 1;
+  return std::sqrt(measured.covariance(6 + longer, 6 + longer));
 }
 
 int turn_between(const Model& model, const Model& reference, const LandmarkConfig& config) {
@@ -111,7 +125,11 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
                            : 0;
   fuse_front(landmark, turned(Eigen::Vector2d(front, 0), turn));
   fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
+  landmark.log_odds += evidence(candidate.shape_probability, config);
   remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn)});
+  if (is_cuboid(landmark.model)) {
+    landmark.length_sd = std::min(landmark.length_sd, length_sd(*candidate.measurement));
+  }
   raise(landmark.model, candidate.in_world);
   Model in_world = candidate.in_world;
   if (is_cuboid(in_world)) in_world = turned(std::get<Cuboid>(in_world), turn);
@@ -135,6 +153,7 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   }
   fuse_front(landmark, turned(other.front, turn));
   fuse_class(landmark, other.class_log);
+  landmark.log_odds += other.log_odds;
   raise(landmark.model, other.model);
   landmark.seen += other.seen;
   landmark.expected = std::max(landmark.expected + other.seen, other.expected);
@@ -142,6 +161,7 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
   landmark.last_stamp = std::max(landmark.last_stamp, other.last_stamp);
+  landmark.length_sd = std::min(landmark.length_sd, other.length_sd);
   landmark.nearest = std::min(landmark.nearest, other.nearest);
   landmark.farthest = std::max(landmark.farthest, other.farthest);
 }
@@ -171,23 +191,13 @@ objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& t
   return static_cast<objects::ClassId>(best);
 }
 
-double shape_probability(const Landmark& landmark, const objects::ClassTable& table) {
-  const std::vector<double> probability = class_probability(landmark);
-  double sum = 0;
-  for (std::size_t id = 0; id < probability.size(); ++id) {
-    if (table[static_cast<objects::ClassId>(id)].shape == shape_of(landmark.model))
-      sum += probability[id];
-  }
-  return sum;
-}
-
-bool believed(const Landmark& landmark, const objects::ClassTable& table,
-              const LandmarkConfig& config) {
+bool believed(const Landmark& landmark, const LandmarkConfig& config) {
   if (landmark.moving || landmark.seen < config.confirm_observations) return false;
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
   if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
-  return shape_probability(landmark, table) >= 0.5;
+  if (is_cuboid(landmark.model) && !(landmark.length_sd <= config.most_length_sd_m)) return false;
+  return landmark.log_odds >= config.least_log_odds;
 }
 
 bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config) {
@@ -196,8 +206,6 @@ bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& co
 }
 
 bool moves(const Landmark& landmark, const LandmarkConfig& config) {
-  constexpr double kSure =
-      1.4;  // standard deviations by which a part that was not seen may lie nearer
   if (landmark.recent.size() < 2) return false;
   const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
@@ -205,7 +213,7 @@ bool moves(const Landmark& landmark, const LandmarkConfig& config) {
   for (const Footprint& footprint : landmark.recent) {
     const Eigen::Vector2d centre = (T_cuboid_world * footprint.centre).head<2>();
     const Eigen::Vector2d half =
-        0.5 * footprint.size - kSure * Eigen::Vector2d::Constant(footprint.sd);
+        0.5 * footprint.size - config.sure_sd * Eigen::Vector2d::Constant(footprint.sd);
     low = low.cwiseMin(centre - half);
     high = high.cwiseMax(centre + half);
     longest = std::max(longest, footprint.size.maxCoeff());

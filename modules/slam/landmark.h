@@ -21,8 +21,12 @@ struct LandmarkConfig {
   double still_m = 0.4;
   double square_elongation = 2;
   double class_clamp = 0.05;
+  double clutter_probability = 0.6;
+  double least_log_odds = 4;
   double moving_distance_m = 1.0;
   double vehicle_length_m = 5;
+  double sure_sd = 1.4;
+  double most_length_sd_m = 0.3;
   int most = 1000;
 
   template <class Visitor>
@@ -50,10 +54,20 @@ struct LandmarkConfig {
     v.field("class_clamp", class_clamp, {1e-4, 0.3}, "",
             "least probability of a class that one measurement may state, so that no single one "
             "decides");
+    v.field("clutter_probability", clutter_probability, {0.05, 0.95}, "",
+            "probability of its shape in a window that speaks neither for nor against an object: "
+            "segmentation wavers about bushes and walls");
+    v.field("least_log_odds", least_log_odds, {-100, 100}, "",
+            "of an object against clutter, the windows' summed, before it is believed");
     v.field("moving_distance_m", moving_distance_m, {0.2, 20}, "m",
             "by which an object's measured footprints reach beyond one object's length: it moves");
     v.field("vehicle_length_m", vehicle_length_m, {2, 20}, "m",
             "length that footprints of one parked vehicle cover together, seen from all sides");
+    v.field("sure_sd", sure_sd, {0, 10}, "",
+            "standard deviations by which a part that was not seen may lie nearer");
+    v.field("most_length_sd_m", most_length_sd_m, {0.01, 10}, "m",
+            "standard deviation of a cuboid's length in its best window, above which nobody has "
+            "seen how long it is: the class's mean with nothing behind it is no object yet");
     v.field("most", most, {1, 100000}, "",
             "objects kept; the one with the fewest observations goes first");
   }
@@ -64,8 +78,9 @@ struct LandmarkConfig {
 struct Candidate {
   const objects::Measurement* measurement = nullptr;
   Gaussian in_keyframe;
-  Model in_world;       ///< by the current estimate
-  double distance = 0;  ///< from the lidar, m
+  Model in_world;                ///< by the current estimate
+  double distance = 0;           ///< from the lidar, m
+  double shape_probability = 0;  ///< of all classes of its shape together
 };
 
 /// What one keyframe says about one object; several measurements from one keyframe are fused.
@@ -88,7 +103,8 @@ struct Landmark {
   Model model;                            ///< world; the estimate
   std::vector<Observation> observations;  ///< ascending keyframe
   std::vector<double>
-      class_log;  ///< of the fused class probability, one an entry of the class table
+      class_log;        ///< of the fused class probability, one an entry of the class table
+  double log_odds = 0;  ///< of an object against clutter
   Eigen::Vector2d front =
       Eigen::Vector2d::Zero();    ///< log-odds that the front is along +x, along +y
   int seen = 0;                   ///< windows in which it was measured
@@ -99,6 +115,7 @@ struct Landmark {
       false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
   int still = 0;  ///< windows for which what moved has stood
   Time first_stamp = 0, last_stamp = 0;
+  double length_sd = std::numeric_limits<double>::infinity();  ///< in the best window, m; cuboids
   double nearest = std::numeric_limits<double>::infinity(),
          farthest = 0;  ///< distances at which it was measured, m
 };
@@ -127,13 +144,9 @@ void forget(Landmark& landmark, int serial);
 /// The most probable class of the landmark's shape.
 [[nodiscard]] objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& table);
 
-/// Of all classes of the landmark's shape together: a trunk that may be a pole is still something.
-[[nodiscard]] double shape_probability(const Landmark& landmark, const objects::ClassTable& table);
-
-/// Seen often enough, over long enough, where it should be seen, of a class of its shape, and
+/// Seen often enough, over long enough, where it should be seen, no clutter, its length known, and
 /// standing still.
-[[nodiscard]] bool believed(const Landmark& landmark, const objects::ClassTable& table,
-                            const LandmarkConfig& config);
+[[nodiscard]] bool believed(const Landmark& landmark, const LandmarkConfig& config);
 
 /// Whether the robot at `distance` m should measure it: no farther than where it was measured, and
 /// not so near that the sensor looks over it.

@@ -7,6 +7,17 @@ namespace {
 
 constexpr std::size_t kMostMeasurements = 500;  // of one window: more is a fault of what made them
 
+double shape_probability(const objects::Measurement& measurement,
+                         const objects::ClassTable& table) {
+  const objects::Shape shape =
+      is_cuboid(measurement.model) ? objects::Shape::cuboid : objects::Shape::cylinder;
+  double sum = 0;
+  for (int id = 0; id < table.size(); ++id) {
+    if (table.classes[id].shape == shape) sum += measurement.class_probability[id];
+  }
+  return sum;
+}
+
 bool fits(const objects::Measurement& measurement, const objects::ClassTable& table) {
   return measurement.class_probability.size() == static_cast<std::size_t>(table.size()) &&
          valid({measurement.model, measurement.covariance});
@@ -14,11 +25,10 @@ bool fits(const objects::Measurement& measurement, const objects::ClassTable& ta
 
 /// Landmarks with a place in the graph.
 std::vector<Landmark*> believed_ones(std::vector<Landmark>& landmarks,
-                                     const objects::ClassTable& table,
                                      const LandmarkConfig& config) {
   std::vector<Landmark*> all;
   for (Landmark& landmark : landmarks) {
-    if (believed(landmark, table, config)) all.push_back(&landmark);
+    if (believed(landmark, config)) all.push_back(&landmark);
   }
   return all;
 }
@@ -63,10 +73,11 @@ std::vector<Candidate> Slam::accepted(const objects::Detections& detections,
       ++report.refused;
       continue;
     }
-    const Gaussian in_lidar{measurement.model,
-                            config_.measurement_covariance_scale * measurement.covariance};
+    const Gaussian in_lidar =
+        with_common_errors({measurement.model, measurement.covariance}, config_.noise);
     Candidate candidate;
     candidate.measurement = &measurement;
+    candidate.shape_probability = shape_probability(measurement, table_);
     candidate.in_keyframe =
         transformed(trajectory_.T_keyframe_lidar(), trajectory_.motion_covariance(), in_lidar);
     candidate.in_world = objects::transformed(trajectory_.T_world_lidar(), measurement.model);
@@ -140,10 +151,10 @@ void Slam::review(SlamUpdate& report) {
 
 void Slam::optimise(const core::Budget& budget, SlamUpdate& report) {
   for (Landmark& landmark : landmarks_) {
-    if (!landmark.moving && !believed(landmark, table_, config_.landmarks))
+    if (!landmark.moving && !believed(landmark, config_.landmarks))
       refine(landmark, trajectory_, config_.graph);
   }
-  const std::vector<Landmark*> in_graph = believed_ones(landmarks_, table_, config_.landmarks);
+  const std::vector<Landmark*> in_graph = believed_ones(landmarks_, config_.landmarks);
   report.confirmed = static_cast<int>(in_graph.size());
   report.solve = solve_graph(trajectory_.keyframes(), in_graph, config_.graph, budget);
 }
@@ -164,7 +175,7 @@ objects::MapObject Slam::map_object(const Landmark& landmark) const {
 objects::ObjectMap Slam::map() const {
   objects::ObjectMap map;
   for (const Landmark& landmark : landmarks_) {
-    if (believed(landmark, table_, config_.landmarks)) map.objects.push_back(map_object(landmark));
+    if (believed(landmark, config_.landmarks)) map.objects.push_back(map_object(landmark));
   }
   map.ground = ground_.planes(trajectory_);
   return map;
@@ -184,7 +195,7 @@ Slam::MapWithCovariance Slam::map_with_covariance() const {
 
 CovarianceReport Slam::covariance(std::span<const int> ids) const {
   std::vector<Landmark> copies = landmarks_;
-  const std::vector<Landmark*> in_graph = believed_ones(copies, table_, config_.landmarks);
+  const std::vector<Landmark*> in_graph = believed_ones(copies, config_.landmarks);
   std::vector<const Landmark*> wanted;
   for (const Landmark* landmark : in_graph) {
     if (std::find(ids.begin(), ids.end(), landmark->id) != ids.end()) wanted.push_back(landmark);

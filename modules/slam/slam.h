@@ -13,6 +13,7 @@
 #include "slam/graph.h"
 #include "slam/ground_map.h"
 #include "slam/landmark.h"
+#include "slam/measurement_noise.h"
 #include "slam/trajectory.h"
 
 namespace saker::slam {
@@ -24,7 +25,7 @@ struct SlamConfig {
   DuplicateConfig duplicates;
   GraphConfig graph;
   GroundMapConfig ground;
-  double measurement_covariance_scale = 2;
+  MeasurementNoiseConfig noise;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -34,9 +35,7 @@ struct SlamConfig {
     v.group("duplicates", duplicates, "when two objects are one");
     v.group("graph", graph, "the optimisation");
     v.group("ground", ground, "the map's local ground planes");
-    v.field(
-        "measurement_covariance_scale", measurement_covariance_scale, {1, 100}, "",
-        "windows of 1 s twice a second share half of their points: two of them say as much as one");
+    v.group("noise", noise, "what is added to the covariances of detection");
   }
 };
 

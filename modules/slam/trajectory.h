@@ -15,8 +15,8 @@ struct KeyframeConfig {
   double angle_deg = 15;
   double interval_s = 2;
   int most = 4000;
-  double rotation_floor_deg = 0.02;
-  double translation_floor_m = 0.005;
+  double rotation_floor_deg = 0.005;
+  double translation_floor_m = 0.003;
 
   template <class Visitor>
   void visit(Visitor& v) {

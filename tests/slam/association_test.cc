@@ -19,7 +19,10 @@ Landmark landmark_at(int id, const Model& model, objects::ClassId class_id, int 
   m.class_id = class_id;
   m.class_probability = probability(class_id);
   const Eigen::Index size = is_cuboid(model) ? 9 : 6;
-  const Candidate candidate{&m, {model, 0.01 * Eigen::MatrixXd::Identity(size, size)}, model, 10};
+  m.model = model;
+  m.covariance = 0.01 * Eigen::MatrixXd::Identity(size, size);
+  const Candidate candidate{
+      &m, {model, 0.01 * Eigen::MatrixXd::Identity(size, size)}, model, 10, 0.8};
   return new_landmark(id, candidate, keyframe, {});
 }
 
@@ -88,6 +91,27 @@ TEST(Duplicates, NeighboursAndOtherShapesStay) {
       landmark_at(2, trunk(0, 0.5), kTrunk), landmark_at(3, trunk(0, 1.2), kPole)};
   EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 0);
   EXPECT_EQ(landmarks.size(), 4U);
+}
+
+TEST(Duplicates, APoleInsideATrunkIsOneObjectAndItsClassIsFused) {
+  Cylinder bush = trunk(5.5, 0);
+  bush.radius = 0.5;
+  std::vector<Landmark> landmarks = {landmark_at(0, trunk(5, 0), kPole),
+                                     landmark_at(1, bush, kTrunk)};
+  for (int i = 0; i < 3; ++i) {
+    Landmark again = landmark_at(2, trunk(5, 0), kPole);
+    absorb(landmarks[0], again, {});
+  }
+  EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
+  ASSERT_EQ(landmarks.size(), 1U);
+  EXPECT_EQ(class_of(landmarks[0], {}), kPole);  // four windows against one
+  EXPECT_NEAR(std::get<Cylinder>(landmarks[0].model).radius, 0.15, 1e-9);
+}
+
+TEST(Duplicates, TwoThinPolesBesideEachOtherStayTwo) {
+  std::vector<Landmark> landmarks = {landmark_at(0, trunk(5, 0), kPole),
+                                     landmark_at(1, trunk(5.6, 0), kPole)};
+  EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 0);
 }
 
 }  // namespace

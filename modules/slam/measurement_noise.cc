@@ -1,0 +1,40 @@
+#include "slam/measurement_noise.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace saker::slam {
+namespace {
+
+/// How [root, axis, radius] moves when the axis turns about the middle of the part that was seen.
+Eigen::Matrix<double, 6, 2> lean_of(const objects::Cylinder& cylinder) {
+  Eigen::Matrix<double, 6, 2> J = Eigen::Matrix<double, 6, 2>::Zero();
+  J.block<3, 2>(0, 0) = -0.5 * cylinder.height * objects::tangent_basis(cylinder.axis);
+  J.block<2, 2>(3, 0).setIdentity();
+  return J;
+}
+
+/// How [rotation, translation, size] moves when the top rises and the bottom stays.
+Vector9d roof() {
+  Vector9d J = Vector9d::Zero();
+  J[5] = 0.5;
+  J[8] = 1;
+  return J;
+}
+
+}  // namespace
+
+Gaussian with_common_errors(const Gaussian& measured, const MeasurementNoiseConfig& config) {
+  Gaussian result{measured.model, config.covariance_scale * measured.covariance};
+  if (is_cuboid(measured.model)) {
+    const Vector9d J = config.roof_m * roof();
+    result.covariance += J * J.transpose();
+  } else {
+    const double lean = config.lean_deg * std::numbers::pi / 180;
+    const auto J = (lean * lean_of(std::get<objects::Cylinder>(measured.model))).eval();
+    result.covariance += J * J.transpose();
+  }
+  return result;
+}
+
+}  // namespace saker::slam
