@@ -25,8 +25,8 @@ struct SurroundingsConfig {
   double crown_highest_m = 8;
   double bare_share = 0.5;
   double leafy_share = 1.0;
-  double bare_odds = 10;
-  double leafy_odds = 2;
+  double bare_odds = 30;
+  double leafy_odds = 4;
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -28,23 +28,38 @@ bool counts(const MapObject& truth, const ComparisonOptions& options) {
   return truth.points < 0 || truth.points >= options.least_points;
 }
 
+double distance(const MapObject& a, const MapObject& b) {
+  return (place(a.model) - place(b.model)).head<2>().norm();
+}
+
 Eigen::MatrixXd distances(const Objects& mapped, const Objects& truth) {
   Eigen::MatrixXd cost(static_cast<Eigen::Index>(mapped.size()),
                        static_cast<Eigen::Index>(truth.size()));
   for (Eigen::Index i = 0; i < cost.rows(); ++i) {
     for (Eigen::Index j = 0; j < cost.cols(); ++j) {
-      cost(i, j) = (place(mapped[static_cast<std::size_t>(i)]->model) -
-                    place(truth[static_cast<std::size_t>(j)]->model))
-                       .head<2>()
-                       .norm();
+      cost(i, j) =
+          distance(*mapped[static_cast<std::size_t>(i)], *truth[static_cast<std::size_t>(j)]);
     }
   }
   return cost;
 }
 
+/// Whether a mapped object without a partner is another's second self, and does not stand on
+/// something of another class beside it.
+bool is_duplicate(const MapObject& mapped, const ObjectMap& truth,
+                  const ComparisonOptions& options) {
+  const auto nearer = [&](const MapObject& a, const MapObject& b) {
+    return distance(mapped, a) < distance(mapped, b);
+  };
+  const auto nearest = std::min_element(truth.objects.begin(), truth.objects.end(), nearer);
+  return nearest != truth.objects.end() && nearest->class_id == mapped.class_id &&
+         distance(mapped, *nearest) <= options.gate_m;
+}
+
 /// Pairs that count; fills the numbers of the class.
-std::vector<Pair> paired(const Objects& mapped, const Objects& truth,
+std::vector<Pair> paired(ClassId id, const ObjectMap& mapped_map, const ObjectMap& truth_map,
                          const ComparisonOptions& options, ClassComparison& result) {
+  const Objects mapped = of_class(mapped_map, id), truth = of_class(truth_map, id);
   const Eigen::MatrixXd cost = distances(mapped, truth);
   const std::vector<int> truth_of = assign(cost, options.gate_m);
   std::vector<Pair> pairs;
@@ -52,11 +67,8 @@ std::vector<Pair> paired(const Objects& mapped, const Objects& truth,
     if (truth_of[i] >= 0) {
       const MapObject* partner = truth[static_cast<std::size_t>(truth_of[i])];
       if (counts(*partner, options)) pairs.push_back({mapped[i], partner});
-    } else if (truth.empty() ||
-               cost.row(static_cast<Eigen::Index>(i)).minCoeff() > options.gate_m) {
-      ++result.invented;
     } else {
-      ++result.duplicates;
+      ++(is_duplicate(*mapped[i], truth_map, options) ? result.duplicates : result.invented);
     }
   }
   result.truth = static_cast<int>(std::count_if(
@@ -155,7 +167,7 @@ std::vector<ClassComparison> compare(const ObjectMap& mapped, const ObjectMap& t
     result.name = table[id].name;
     result.shape = table[id].shape;
     if (result.shape != Shape::cuboid && result.shape != Shape::cylinder) continue;
-    const auto pairs = paired(of_class(mapped, id), of_class(truth, id), options, result);
+    const auto pairs = paired(id, mapped, truth, options, result);
     for (const Pair& pair : pairs) result.pairs.push_back({pair.mapped->id, pair.truth->id});
     add_errors(pairs, kPlace, result);
     if (result.shape == Shape::cuboid) {

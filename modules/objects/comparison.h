@@ -34,8 +34,9 @@ struct ClassComparison {
   int mapped = 0;
   int found = 0;        ///< pairs
   int missed = 0;       ///< true, without a mapped one
-  int invented = 0;     ///< mapped, no true one of the class within the gate
-  int duplicates = 0;   ///< mapped, within the gate of a true one that another is paired with
+  int invented = 0;     ///< mapped, neither found nor duplicate
+  int duplicates = 0;   ///< mapped; the nearest true one of any class is, within the gate, one of
+                        ///< this class that another is paired with
   int front_right = 0;  ///< found cuboids whose front is in front
   std::vector<ErrorFigures> errors;
   std::vector<FoundPair> pairs;  ///< that were found, in the order of the mapped ids

@@ -7,6 +7,8 @@
 namespace saker::simulation {
 namespace {
 
+constexpr double kLeastStem_m = 1.0;  // under the crown: boughs to the ground leave no trunk to see
+
 std::size_t any_of(const std::vector<std::size_t>& prototypes, core::Rng& rng) {
   return prototypes[rng.index(static_cast<int>(prototypes.size()))];
 }
@@ -63,6 +65,16 @@ void draw_branches(const TreeShape& s, const Eigen::Vector3d& fork, MaterialId m
   }
 }
 
+ObjectId add_trunk(World& world, const TreeShape& shape, const SE3& T_world_ground) {
+  objects::Cylinder cylinder;
+  cylinder.root = T_world_ground.translation();
+  cylinder.axis =
+      T_world_ground.linear() * Eigen::Vector3d(shape.lean_x, shape.lean_y, 1).normalized();
+  cylinder.radius = shape.trunk_radius;
+  cylinder.height = shape.crown_start;
+  return world.add({"trunk", shape.conifer ? "conifer" : "broadleaf", cylinder});
+}
+
 }  // namespace
 
 TreeShape random_tree(core::Rng& rng) {
@@ -87,13 +99,8 @@ TreeShape random_tree(core::Rng& rng) {
 
 void add_tree(World& world, const Palette& palette, const Flora& flora, const TreeShape& shape,
               const SE3& T_world_ground, core::Rng& rng) {
-  objects::Cylinder cylinder;
-  cylinder.root = T_world_ground.translation();
-  cylinder.axis =
-      T_world_ground.linear() * Eigen::Vector3d(shape.lean_x, shape.lean_y, 1).normalized();
-  cylinder.radius = shape.trunk_radius;
-  cylinder.height = shape.crown_start;
-  const ObjectId id = world.add({"trunk", shape.conifer ? "conifer" : "broadleaf", cylinder});
+  const ObjectId id =
+      shape.crown_start < kLeastStem_m ? 0 : add_trunk(world, shape, T_world_ground);
   Pen pen(world.mesh, T_world_ground, id);
   const double top = shape.crown_start + 0.45 * shape.crown_height;
   const MaterialId bark = tinted(

@@ -29,7 +29,8 @@ struct TreeShape {
 
 [[nodiscard]] TreeShape random_tree(core::Rng& rng);
 
-/// A tree rooted at the origin of `T_world_ground`, with its trunk in the world's truth.
+/// A tree rooted at the origin of `T_world_ground`, with its trunk in the world's truth where a
+/// metre of it or more stands free under the crown.
 void add_tree(World& world, const Palette& palette, const Flora& flora, const TreeShape& shape,
               const SE3& T_world_ground, core::Rng& rng);
 

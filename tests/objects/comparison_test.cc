@@ -81,6 +81,17 @@ TEST(Comparison, CountsFoundMissedInventedAndDuplicates) {
   EXPECT_EQ(pole.truth + pole.mapped, 0);
 }
 
+TEST(Comparison, PoleTakenForATrunkBesideATrunkIsInventedNotADuplicate) {
+  MapObject pole = trunk(1, 6, 5);
+  pole.class_id = 3;
+  const ObjectMap truth = map_of({trunk(0, 5, 5), pole});
+  const auto all = compare(map_of({trunk(0, 5, 5.1), trunk(1, 6.1, 5)}), truth, {}, {});
+  EXPECT_EQ(of(all, "trunk").found, 1);
+  EXPECT_EQ(of(all, "trunk").invented, 1);
+  EXPECT_EQ(of(all, "trunk").duplicates, 0);
+  EXPECT_EQ(of(all, "pole").missed, 1);
+}
+
 TEST(Comparison, ErrorIsMappedMinusTrueWithItsSign) {
   const ObjectMap truth = map_of({car(0, 0, 0, 4), car(1, 10, 0, 5)});
   const ObjectMap mapped = map_of({car(0, 0.2, 0, 4.3), car(1, 10.4, 0, 5.1)});
