@@ -63,6 +63,62 @@ TEST(MissionWorld, ObstaclesStandBetweenTheTargetsAndPostsAreInTheTruth) {
   EXPECT_GT(with.world().mesh.triangles.size(), without.world().mesh.triangles.size());
 }
 
+/// Along each post, up to where one flies.
+TEST(MissionWorld, PostsAreHigherThanOneFliesAndApartFromVehicles) {
+  MissionConfig config;
+  config.site.obstacles = 7;
+  const MissionWorld site = build_mission_world(config, 6);
+  int posts = 0;
+  for (const TrueObject& object : site.world().objects) {
+    if (object.kind != "post") continue;
+    ++posts;
+    const auto& post = std::get<objects::Cylinder>(object.model);
+    EXPECT_GT(post.height, 4);
+    EXPECT_GT((post.root - site.T_sim_world.translation()).norm(), 4);
+    for (const TrueObject& other : site.world().objects) {
+      const auto* cuboid = std::get_if<objects::Cuboid>(&other.model);
+      if (cuboid == nullptr) continue;
+      EXPECT_GT((cuboid->pose.translation() - post.root).head<2>().norm(), 2);
+    }
+  }
+  EXPECT_EQ(posts, 3);
+}
+
+TEST(MissionWorld, MoreObstaclesThanThereIsRoomForAreRefusedByName) {
+  MissionConfig config;
+  config.site.obstacles = 40;
+  config.site.targets = 2;
+  try {
+    (void)build_mission_world(config, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("mission.site.obstacles"), std::string::npos);
+  }
+}
+
+TEST(MissionWorld, AMovingVehicleDrivesAndStaysOutOfTheMap) {
+  MissionConfig config;
+  config.site.moving_vehicles = 1;
+  const MissionWorld site = build_mission_world(config, 7);
+  const Driver& driver = site.flight.drivers.at(0);
+  RayCaster caster(site.world());
+  const std::vector<bool> ground = ground_materials(site.world());
+  const auto on_the_way = [&](double t) {
+    const double s = driver.start_s + driver.speed_mps * t;
+    const SE3 T = site.flight.built.terrain.upright(s, driver.d);
+    return (T.translation() + Eigen::Vector3d(0, 0, 0.8)).cast<float>().eval();
+  };
+  double t = 0;
+  while (std::abs(driver.start_s + driver.speed_mps * t) > 15) t += 0.5;
+  drive(site.flight, t, caster);
+  EXPECT_TRUE(caster.nearest(on_the_way(t), 0.8F, ground).has_value());
+  drive(site.flight, t + 3, caster);
+  EXPECT_FALSE(caster.nearest(on_the_way(t), 0.8F, ground).has_value());
+  const objects::ObjectMap truth =
+      truth_map(site.world(), site.T_sim_world.inverse(), no_hits(site.world()));
+  EXPECT_EQ(truth.objects.size() + 1, site.world().objects.size());
+}
+
 TEST(MissionWorld, TheSameSeedGivesTheSameWorldAndAnotherSeedAnother) {
   const MissionConfig config;
   const MissionWorld a = build_mission_world(config, 3);

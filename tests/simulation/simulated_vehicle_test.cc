@@ -135,6 +135,37 @@ TEST(SimulatedVehicle, AnInsertedObstacleIsSeenAndTouchedWhereItWasPut) {
   EXPECT_EQ(truth.nearest_label, kOtherStructure);
 }
 
+TEST(SimulatedVehicle, AGustIsFlownThroughWithinAMetre) {
+  ScenarioEvent gust;
+  gust.kind = ScenarioEventKind::gust;
+  gust.at_s = 6;
+  gust.gust_mps = 6;
+  MissionConfig config = with_event(gust);
+  config.wind.mean_mps = config.wind.gust_mps = 0;
+  Pilot pilot(config, 9);
+  ASSERT_TRUE(pilot.take_off(3));
+  const Eigen::Vector3d place(0, 0, 3);
+  double before = 0, worst = 0;
+  for (int i = 0; i < 200; ++i) {
+    pilot.guide(place, 0.02);
+    const VehicleTruth truth = pilot.vehicle.truth();
+    const double off = (truth.T_world_body.translation() - place).norm();
+    (truth.flight_time_s < 5.9 ? before : worst) =
+        std::max(truth.flight_time_s < 5.9 ? before : worst, off);
+  }
+  EXPECT_LT(before, 0.25);
+  EXPECT_GT(worst, 0.1);
+  EXPECT_LT(worst, 1.0);
+}
+
+TEST(SimulatedVehicle, TruthCountsTheReturnsOfEachObject) {
+  SimulatedVehicle vehicle(small_sensor(), 11);
+  vehicle.step_to(vehicle.now() + from_seconds(0.5));
+  int hit = 0;
+  for (const objects::MapObject& object : vehicle.true_map().objects) hit += object.points > 20;
+  EXPECT_GT(hit, 2);
+}
+
 TEST(SimulatedVehicle, AStoppedLidarSendsNothing) {
   ScenarioEvent stop;
   stop.kind = ScenarioEventKind::lidar_stop;
