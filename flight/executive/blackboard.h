@@ -2,35 +2,15 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "autonomy/mission.h"
 #include "autonomy/pipeline.h"
 #include "autonomy/planning.h"
 #include "bus/mailbox.h"
-#include "process/sensor_clock.h"
+#include "executive/shared_clock.h"
 
 namespace saker::flight {
-
-/// The sensor's time in every thread.
-class SharedClock {
- public:
-  void hear(Time stamp) {
-    const auto received = SensorClock::Steady::now();
-    const std::lock_guard lock(mutex_);
-    clock_.hear(stamp, received);
-  }
-  /// 0 before the first stamp.
-  [[nodiscard]] Time now() const {
-    const std::lock_guard lock(mutex_);
-    return clock_.at(SensorClock::Steady::now()).value_or(0);
-  }
-
- private:
-  mutable std::mutex mutex_;
-  SensorClock clock_;
-};
 
 /// A registered scan's pose, for the pose of the body and for SLAM.
 struct PoseFix {

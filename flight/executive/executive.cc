@@ -18,7 +18,9 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLook{100};      // of the main thread at what the loops say
 constexpr int kLooksPerHealth = 10;     // 1 Hz
 constexpr int kHealthsPerProgress = 5;  // a line every 5 s
-constexpr int kPosePriority = 60, kSafetyPriority = 70, kGuidancePriority = 65;
+// What flies comes first, what feeds it next; maps and plans take what is left.
+constexpr int kSafetyPriority = 70, kGuidancePriority = 65, kPosePriority = 60,
+              kSensorPriority = 55, kIoPriority = 50, kIngestionPriority = 20;
 
 }  // namespace
 
@@ -78,9 +80,9 @@ void Executive::make_loops() {
         std::make_unique<Loop>(name, rate_hz, priority, [this, body] { return (this->*body)(); }));
   };
   const autonomy::Config& config = config_.autonomy;
-  add("io", 200, 0, &Executive::io);
-  add("sensor", 200, 0, &Executive::sensor);
-  add("ingestion", 50, 0, &Executive::ingest);
+  add("io", 200, kIoPriority, &Executive::io);
+  add("sensor", 200, kSensorPriority, &Executive::sensor);
+  add("ingestion", 50, kIngestionPriority, &Executive::ingest);
   add("segmentation", config.rates.flight_segmentation_hz, 0, &Executive::segment);
   add("mapping", config.rates.slam_hz, 0, &Executive::map);
   add("planning", config.planning.rate_hz, 0, &Executive::plan);

@@ -62,7 +62,9 @@ void Loop::work() {
     report(meter, status);
     next += period_;
     const Steady::duration behind = Steady::now() - next;
-    if (behind > period_) next += behind / period_ * period_;
+    if (behind <= period_) continue;
+    meter.began_late(behind);  // the deadline that the run swallowed
+    next += behind / period_ * period_;
   }
 }
 

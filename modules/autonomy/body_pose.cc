@@ -14,6 +14,7 @@ constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kGravity = 9.80665;        // m/s²
 constexpr std::size_t kMostSamples = 4000;  // 2 s at 2 kHz
 constexpr double kLongestStep_s = 0.1;      // a longer gap between samples is no motion known
+constexpr double kLongestAhead_s = 0.05;    // of the newest sample; then it is taken to stay
 constexpr double kLongestInterval_s = 1.0;  // between scans that teach biases
 const Eigen::Vector3d kGravityVector(0, 0, -kGravity);
 
@@ -138,7 +139,8 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.stamp = now;
   result.reset_counter = reset_counter_;
   if (!started_) return result;
-  const double ahead = to_seconds(now - newest_.stamp);
+  const double silent = to_seconds(now - newest_.stamp);
+  const double ahead = std::min(silent, kLongestAhead_s);
   const double age = to_seconds(now - scan_.stamp);
   const SE3 T_odom_lidar = pose_of(newest_.R_odom_lidar * core::so3_exp(newest_.rate * ahead),
                                    newest_.position + newest_.velocity * ahead);
@@ -152,7 +154,8 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.covariance = Matrix6d::Zero();
   result.covariance.diagonal().head<3>().setConstant(sd_turn * sd_turn);
   result.covariance.diagonal().tail<3>().setConstant(sd_place * sd_place);
-  result.status = age <= config_.fresh_s  ? VehicleOdometryStatus::ok
+  const bool fresh = age <= config_.fresh_s && silent <= kLongestAhead_s;
+  result.status = fresh                   ? VehicleOdometryStatus::ok
                   : age <= config_.lost_s ? VehicleOdometryStatus::predicted
                                           : VehicleOdometryStatus::lost;
   return result;

@@ -132,10 +132,22 @@ TEST(BodyPose, SaysHowOldItsScanIs) {
   const MadeSensors sensors(mount());
   (void)fly(pose, sensors, 0, 0, 2, 2.0);
   const Time last = from_seconds(1.9);
+  pose.add(sensors.imu(last + from_seconds(config.fresh_s)));
   EXPECT_EQ(pose.at(last + from_seconds(config.fresh_s)).status, VehicleOdometryStatus::ok);
   EXPECT_EQ(pose.at(last + from_seconds(config.fresh_s + 0.02)).status,
             VehicleOdometryStatus::predicted);
   EXPECT_EQ(pose.at(last + from_seconds(config.lost_s + 0.02)).status, VehicleOdometryStatus::lost);
+}
+
+TEST(BodyPose, ExtrapolatesNoFartherThanATwentiethOfASecondWhenTheInertialUnitIsSilent) {
+  BodyPose pose({}, mount());
+  (void)fly(pose, MadeSensors(mount()), 0, 0, 10);
+  const Time end = from_seconds(10);
+  EXPECT_EQ(pose.at(end).status, VehicleOdometryStatus::ok);
+  const VehicleOdometry soon = pose.at(end + from_seconds(0.1)),
+                        late = pose.at(end + from_seconds(0.3));
+  EXPECT_EQ(soon.status, VehicleOdometryStatus::predicted);
+  EXPECT_TRUE(soon.T_odom_body.isApprox(late.T_odom_body));
 }
 
 TEST(BodyPose, CoastsOnTheInertialUnitWhenScansStop) {

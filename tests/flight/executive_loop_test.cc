@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "executive/loop.h"
+
+namespace saker::flight {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(ExecutiveLoop, RunsAtItsRateUntilItIsStopped) {
+  std::atomic<int> runs = 0;
+  Loop loop("test", 100, 0, [&] {
+    ++runs;
+    return LoopStatus{};
+  });
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(500));
+  loop.stop();
+  const int at_stop = runs;
+  EXPECT_GT(at_stop, 25);
+  EXPECT_LE(at_stop, 52);
+  std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_EQ(runs, at_stop);
+}
+
+TEST(ExecutiveLoop, CountsALateRunAndDoesNotMakeUpForIt) {
+  std::atomic<int> runs = 0;
+  Loop loop("test", 100, 0, [&] {
+    if (++runs == 5) std::this_thread::sleep_for(milliseconds(300));
+    return LoopStatus{12, 3};
+  });
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(1300));
+  loop.stop();
+  EXPECT_LE(runs, 104);  // thirty were lost
+  const auto health = loop.health();
+  ASSERT_NE(health, nullptr);
+  EXPECT_EQ(health->name, "test");
+  EXPECT_GE(health->misses, 1);
+  EXPECT_EQ(health->age_ms, 12);
+  EXPECT_EQ(health->drops, 3);
+}
+
+TEST(ExecutiveLoop, StopsWithoutHavingStarted) {
+  Loop loop("test", 1, 0, [] { return LoopStatus{}; });
+  loop.stop();
+  EXPECT_EQ(loop.health(), nullptr);
+}
+
+}  // namespace
+}  // namespace saker::flight
