@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace saker::flight {
@@ -41,15 +43,22 @@ void Presence::claim(std::chrono::milliseconds listen) {
   const auto end = steady_clock::now() + listen;
   while (steady_clock::now() < end) {
     announce();
-    bus_.handle(kSlice);
-    if (must_give_way()) {
-      throw Error("a second " + role_ + " of robot " + bus_.robot() +
-                  " is on the network (process " + std::to_string(other_->last.pid) + ")");
-    }
+    listen_until(std::min(end, steady_clock::now() + kSlice));
   }
   const std::lock_guard lock(other_->mutex);
   other_->heard = false;
   running_ = true;
+}
+
+/// The time counts, not the messages: own announcements come back too.
+void Presence::listen_until(steady_clock::time_point until) {
+  for (auto now = steady_clock::now(); now < until; now = steady_clock::now()) {
+    if (bus_.handle(std::chrono::ceil<std::chrono::milliseconds>(until - now)) < 0)
+      throw Error("the LCM network is gone");
+    if (!must_give_way()) continue;
+    throw Error("a second " + role_ + " of robot " + bus_.robot() + " is on the network (process " +
+                std::to_string(other_->last.pid) + ")");
+  }
 }
 
 void Presence::announce() { bus_.publish(own()); }

@@ -40,6 +40,7 @@ class Presence {
     presence_t last{};
   };
 
+  void listen_until(std::chrono::steady_clock::time_point until);
   [[nodiscard]] presence_t own() const;
   [[nodiscard]] bool must_give_way() const;
 

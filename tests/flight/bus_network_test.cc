@@ -194,6 +194,18 @@ TEST_F(WithRoute, OfTwoThatStartTogetherExactlyOneGoesOn) {
   EXPECT_NE(first.empty(), second.empty()) << first << second;
 }
 
+TEST_F(WithRoute, OneThatStartsAnnouncesItselfEvery50MsThoughItHearsItself) {
+  Bus bus(BusConfig{}, "R1"), listener(BusConfig{}, "R1");
+  int heard = 0;
+  listener.subscribe<presence_t>([&](const presence_t&) { return ++heard > 0; });
+  Presence presence(bus, "saker-flight");
+  presence.claim(milliseconds(500));
+  handle_until(listener, [&] { return heard >= 10; });
+  listener.handle(milliseconds(50));
+  EXPECT_GE(heard, 5);
+  EXPECT_LE(heard, 11);
+}
+
 TEST_F(WithRoute, OneThatIsHeardAfterTheStartIsReported) {
   Bus bus(BusConfig{}, "R1"), intruder(BusConfig{}, "R1");
   Presence presence(bus, "saker-flight");

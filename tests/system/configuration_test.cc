@@ -13,26 +13,31 @@ namespace {
 
 TEST(Configuration, TheFileInTheRepositoryIsTheOneOfTheProgram) {
   const std::filesystem::path written = std::filesystem::path(testing::TempDir()) / "default.yaml";
-  core::write_file(written, configuration_text(autonomy::Config{}));
+  core::write_file(written, configuration_text(flight::ProcessConfig{}));
   EXPECT_TRUE(core::read_file(written) == core::read_file(SAKER_SOURCE_DIR "/configs/default.yaml"))
       << "compare configs/default.yaml with " << written;
 }
 
 TEST(Configuration, TheDefaultsAreWithinTheirBounds) {
-  EXPECT_NO_THROW((void)core::checked(autonomy::Config{}, "saker"));
+  EXPECT_NO_THROW((void)core::checked(flight::ProcessConfig{}, "saker"));
 }
 
 TEST(Configuration, WhatIsWrittenIsReadBackTheSame) {
-  const std::string text = configuration_text(autonomy::Config{});
-  EXPECT_EQ(configuration_text(core::config_from_yaml<autonomy::Config>(text, "default.yaml")),
+  const std::string text = configuration_text(flight::ProcessConfig{});
+  EXPECT_EQ(configuration_text(core::config_from_yaml<flight::ProcessConfig>(text, "default.yaml")),
             text);
 }
 
 TEST(Configuration, NoKeyIsListedTwice) {
-  auto keys = core::config_keys(autonomy::Config{});
+  auto keys = core::config_keys(flight::ProcessConfig{});
   std::sort(keys.begin(), keys.end());
   EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
   EXPECT_GT(keys.size(), 50u);
+}
+
+TEST(Configuration, TheNetworksOfTheProcessesAreInIt) {
+  const auto keys = core::config_keys(flight::ProcessConfig{});
+  EXPECT_NE(std::find(keys.begin(), keys.end(), "bus.control_url"), keys.end());
 }
 
 TEST(Configuration, SettingsComeAfterTheFile) {
@@ -41,7 +46,7 @@ TEST(Configuration, SettingsComeAfterTheFile) {
   CommonOptions common;
   common.config_file = file.string();
   common.settings = {"rates.slam_hz=1"};
-  const autonomy::Config config = read_configuration(common);
+  const autonomy::Config config = read_configuration(common).autonomy;
   EXPECT_EQ(config.rates.slam_hz, 1);
   EXPECT_EQ(config.rates.segmentation_hz, 8);
 }

@@ -4,11 +4,11 @@
 
 namespace saker::tools {
 
-autonomy::Config read_configuration(const CommonOptions& common) {
-  return core::load_config<autonomy::Config>(common.config_file, common.settings);
+flight::ProcessConfig read_configuration(const CommonOptions& common) {
+  return core::load_config<flight::ProcessConfig>(common.config_file, common.settings);
 }
 
-std::string configuration_text(const autonomy::Config& config) {
+std::string configuration_text(const flight::ProcessConfig& config) {
   return "# Saker's configuration. A file needs only the keys that differ from these.\n" +
          core::config_to_yaml(config);
 }

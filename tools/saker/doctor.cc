@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bus/machine.h"
+#include "saker/configuration.h"
 #include "saker/subcommand.h"
 
 namespace saker::tools {
@@ -23,8 +24,8 @@ void print(const Finding& finding) {
   if (finding.weight != Weight::fine) fmt::print("{:<6} mend with: {}\n", "", finding.remedy);
 }
 
-int doctor() {
-  const flight::MachineNeeds needs;
+int doctor(const CommonOptions& common) {
+  const flight::MachineNeeds needs{.bus = read_configuration(common).bus};
   const std::vector<Finding> findings = flight::check_machine(needs);
   for (const Finding& finding : findings) print(finding);
   const auto grounding = std::count_if(findings.begin(), findings.end(), [](const Finding& f) {
@@ -46,7 +47,7 @@ void add_doctor(Commands& commands) {
        .does = "what on this machine would keep a mission from flying, and the command that "
                "mends it; status 1 when there is such a thing",
        .example = "saker doctor"},
-      [](const CommonOptions&) { return doctor(); });
+      doctor);
 }
 
 }  // namespace saker::tools

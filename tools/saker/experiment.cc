@@ -55,7 +55,7 @@ fs::path folder_of(const ExperimentOptions& options, const MissionRun& run,
 
 /// The same worlds, which follow from scenario and seed, for each policy.
 std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& common) {
-  const autonomy::Config config = read_configuration(common);
+  const autonomy::Config config = read_configuration(common).autonomy;
   std::vector<Job> jobs;
   for (const std::string& scenario : options.scenarios) {
     const simulation::MissionConfig site = read_site(scenario);
@@ -136,7 +136,7 @@ bool good(const Json& run) {
 
 int experiment(ExperimentOptions options, const CommonOptions& common) {
   if (options.policies.empty()) {
-    const auto policy = read_configuration(common).active.policy;
+    const auto policy = read_configuration(common).autonomy.active.policy;
     options.policies = {active::enum_names(policy)[static_cast<std::size_t>(policy)]};
   }
   const std::vector<Job> jobs = jobs_of(options, common);

@@ -24,7 +24,7 @@ struct MapOptions {
 };
 
 objects::ClassTable classes(const CommonOptions& common) {
-  return read_configuration(common).objects;
+  return read_configuration(common).autonomy.objects;
 }
 
 // saker map info

@@ -135,7 +135,7 @@ void report(const nlohmann::json& results) {
 }
 
 int replay(const ReplayOptions& options, const CommonOptions& common) {
-  const autonomy::Config config = read_configuration(common);
+  const autonomy::Config config = read_configuration(common).autonomy;
   const auto source = open_input(options);
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth, config.objects);

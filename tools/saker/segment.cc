@@ -38,7 +38,7 @@ void write_labels(const OutputFolder& out, const std::string& name, const lidar:
 }
 
 int segment(const SegmentOptions& options, const CommonOptions& common) {
-  const autonomy::Config config = read_configuration(common);
+  const autonomy::Config config = read_configuration(common).autonomy;
   segmentation::Segmentation stage(config.segmentation, config.objects);
   const auto source =
       lidar::open_recording(options.input, lidar::RecordingFormat::kAutomatic, options.metadata);

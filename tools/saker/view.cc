@@ -77,7 +77,7 @@ std::string title_of(const lidar::Frame& frame, const objects::Detections& detec
 }
 
 int view(const ViewOptions& options, const CommonOptions& common) {
-  const autonomy::Config config = read_configuration(common);
+  const autonomy::Config config = read_configuration(common).autonomy;
   detection::Detection detection(config.detection, config.objects);
   const std::filesystem::path file = output_file(common.out, common.force);
   const auto frames = read_frames(options, from_seconds(config.detection.window_s + kRunUp_s));
