@@ -26,7 +26,7 @@ struct SurroundingsConfig {
   double bare_share = 0.5;
   double leafy_share = 1.0;
   double bare_odds = 30;
-  double leafy_odds = 4;
+  double leafy_odds = 2;
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -30,7 +30,7 @@ class Feed {
                               {model, 0.01 * Eigen::MatrixXd::Identity(size, size)},
                               model,
                               10,
-                              id == 0 ? 0.2 : probability(id)[id]};
+                              id == 0 ? 0.2 : 0.95};
     if (landmark_.id < 0) {
       landmark_ = new_landmark(7, candidate, keyframe_++, kConfig);
     } else {
