@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "autonomy/local_checker.h"
 #include "core/files.h"
-#include "core/statistics.h"
-#include "objects/comparison.h"
 #include "objects/map_io.h"
 #include "plant/simulated_plant.h"
 #include "saker/map_picture.h"
@@ -21,9 +18,6 @@ namespace saker::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A figure of too few objects is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 /// What the vehicle is told of the site: the fence, and how its lidar is mounted.
 autonomy::Config at_site(autonomy::Config config, const MissionRun& run,
@@ -52,10 +46,6 @@ std::vector<int> true_targets(const objects::ObjectMap& truth, const objects::Ob
   std::vector<int> ids;
   for (const auto& [distance, id] : by_distance) ids.push_back(id);
   return ids;
-}
-
-const objects::MapObject& by_id(const objects::ObjectMap& map, int id) {
-  return *std::ranges::find(map.objects, id, &objects::MapObject::id);
 }
 
 Json target_list(const std::vector<active::Target>& targets) {
@@ -131,33 +121,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 }  // namespace
-
-Json target_figures(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
-                    const std::vector<int>& targets, const objects::ClassTable& table) {
-  std::vector<double> errors;
-  Json list = Json::array();
-  for (const objects::ClassComparison& c : objects::compare(mapped, truth, table, {})) {
-    if (c.shape != objects::Shape::cuboid) continue;
-    for (const auto& [mapped_id, true_id] : c.pairs) {
-      if (std::ranges::find(targets, true_id) == targets.end()) continue;
-      const auto& found = std::get<objects::Cuboid>(by_id(mapped, mapped_id).model);
-      const auto& real = std::get<objects::Cuboid>(by_id(truth, true_id).model);
-      const Eigen::Vector3d error = found.size - real.size;
-      const Eigen::Vector3d away = found.pose.translation() - real.pose.translation();
-      errors.insert(errors.end(), {error.x(), error.y()});
-      list.push_back({{"id", true_id},
-                      {"length_m", error.x()},
-                      {"width_m", error.y()},
-                      {"distance_m", away.head<2>().norm()}});
-    }
-  }
-  return {{"targets", targets.size()},
-          {"found", list.size()},
-          {"bias_m", number(core::mean(errors))},
-          {"sd_m", number(core::standard_deviation(errors))},
-          {"mae_m", number(core::mean_absolute(errors))},
-          {"errors", list}};
-}
 
 Json fly(const MissionRun& run, const fs::path& out) {
   const auto begin = std::chrono::steady_clock::now();

@@ -16,6 +16,13 @@ namespace {
 
 constexpr double kSameStamp_s = 1e-3;
 
+const StampedPose* at(const std::vector<StampedPose>& poses, double t) {
+  const auto found = std::ranges::lower_bound(poses, t - kSameStamp_s, {}, &StampedPose::t);
+  return found != poses.end() && found->t <= t + kSameStamp_s ? &*found : nullptr;
+}
+
+}  // namespace
+
 std::vector<StampedPose> read_trajectory(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::vector<StampedPose> poses;
@@ -37,13 +44,6 @@ std::vector<StampedPose> read_trajectory(const std::filesystem::path& file) {
   std::ranges::sort(poses, {}, &StampedPose::t);
   return poses;
 }
-
-const StampedPose* at(const std::vector<StampedPose>& poses, double t) {
-  const auto found = std::ranges::lower_bound(poses, t - kSameStamp_s, {}, &StampedPose::t);
-  return found != poses.end() && found->t <= t + kSameStamp_s ? &*found : nullptr;
-}
-
-}  // namespace
 
 Truth read_truth(const std::filesystem::path& file, const objects::ClassTable& table) {
   Truth truth;

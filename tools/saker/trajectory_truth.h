@@ -22,6 +22,9 @@ struct Truth {
   std::vector<StampedPose> trajectory;
 };
 
+/// TUM rows in time order; none where there is no such file. Throws Error on a malformed row.
+[[nodiscard]] std::vector<StampedPose> read_trajectory(const std::filesystem::path& file);
+
 /// Throws Error where a file is missing or malformed; a missing trajectory is none.
 [[nodiscard]] Truth read_truth(const std::filesystem::path& file, const objects::ClassTable& table);
 

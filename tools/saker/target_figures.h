@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "objects/class_table.h"
+#include "objects/object_map.h"
+
+namespace saker::tools {
+
+using Json = nlohmann::ordered_json;
+
+/// A figure of too few objects is null.
+[[nodiscard]] Json number(double value);
+
+/// Errors of length and width of those true objects of `targets` (ids) that were found:
+/// {"targets", "found", "bias_m", "sd_m", "mae_m", "errors": [{"id", "length_m", "width_m",
+/// "distance_m"}]}; error = mapped − true; null where there are too few.
+[[nodiscard]] Json target_figures(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
+                                  const std::vector<int>& targets,
+                                  const objects::ClassTable& table);
+
+}  // namespace saker::tools
