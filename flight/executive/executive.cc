@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <ctime>
 #include <thread>
 
 #include "bus/messages.h"
@@ -21,6 +22,13 @@ constexpr int kHealthsPerProgress = 5;  // a line every 5 s
 // What flies comes first, what feeds it next; maps and plans take what is left.
 constexpr int kSafetyPriority = 70, kGuidancePriority = 65, kPosePriority = 60,
               kSensorPriority = 55, kIoPriority = 50, kIngestionPriority = 20;
+
+/// Of all threads.
+double process_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 }  // namespace
 
@@ -111,6 +119,8 @@ bool Executive::run() {
   if (const std::string fault = lock_memory(); !fault.empty()) {
     spdlog::warn("memory is not locked: {}", fault);
   }
+  const auto begin = std::chrono::steady_clock::now();
+  const double begin_cpu_s = process_seconds();
   for (auto& loop : loops_) {
     const bool flies = loop->name() == "safety" || loop->name() == "guidance" ||
                        loop->name() == "planning" || loop->name() == "pose";
@@ -131,6 +141,9 @@ bool Executive::run() {
   say_events();
   say_health();
   say_progress();
+  ran_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ran_cpu_s_ = process_seconds() - begin_cpu_s;
+  say_totals();
   return supervisor_.mission().succeeded();
 }
 
@@ -161,6 +174,7 @@ void Executive::save(const std::filesystem::path& out) {
   core::write_file(out / "trajectory.txt", world);
   core::write_file(out / "odometry.txt", odom);
   core::write_file(out / "timings.csv", timings_.csv());
+  save_loops(out / "loops.json");
 }
 
 }  // namespace saker::flight

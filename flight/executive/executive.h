@@ -71,6 +71,9 @@ class Executive {
   void say_events();
   void say_health();
   void say_progress();
+  void say_totals() const;
+  void save_loops(const std::filesystem::path& file) const;
+  [[nodiscard]] const autonomy::PlanningReport& tour_report();
   [[nodiscard]] double age_ms(Time stamp) const;
 
   struct ScanRow {
@@ -111,6 +114,8 @@ class Executive {
 
   Time took_off_ = 0;
   autonomy::MissionEvent last_event_;
+  autonomy::PlanningReport tour_report_;
+  double ran_s_ = 0, ran_cpu_s_ = 0;          // what `run` took
   std::vector<std::unique_ptr<Loop>> loops_;  // last: their threads use what stands above
 };
 

@@ -30,7 +30,8 @@ Loop::Loop(std::string name, double rate_hz, int priority, Body body)
       period_(
           std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(1 / rate_hz))),
       priority_(priority),
-      body_(std::move(body)) {}
+      body_(std::move(body)),
+      meter_(name_) {}
 
 Loop::~Loop() { stop(); }
 
@@ -49,29 +50,28 @@ void Loop::stop() {
 }
 
 void Loop::work() {
-  LoopMeter meter(name_);
   Steady::time_point next = reported_ = Steady::now();
   while (!stopping_) {
     sleep_until(next);
-    meter.began_late(Steady::now() - next);
+    meter_.began_late(Steady::now() - next);
     LoopStatus status;
     {
-      const LoopMeter::Run run(meter);
+      const LoopMeter::Run run(meter_);
       status = body_();
     }
-    report(meter, status);
+    report(status);
     next += period_;
     const Steady::duration behind = Steady::now() - next;
     if (behind <= period_) continue;
-    meter.began_late(behind);  // the deadline that the run swallowed
+    meter_.began_late(behind);  // the deadline that the run swallowed
     next += behind / period_ * period_;
   }
 }
 
-void Loop::report(LoopMeter& meter, const LoopStatus& status) {
+void Loop::report(const LoopStatus& status) {
   const Steady::time_point now = Steady::now();
   if (now - reported_ < std::chrono::seconds(1)) return;
-  health_.put(meter.take_period(now - reported_, status.age_ms, status.drops));
+  health_.put(meter_.take_period(now - reported_, status.age_ms, status.drops));
   reported_ = now;
 }
 

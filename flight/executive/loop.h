@@ -36,6 +36,8 @@ class Loop {
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Of the last second.
   [[nodiscard]] std::shared_ptr<const loop_health_t> health() const { return health_.latest(); }
+  /// Since the start; to be called when it has stopped.
+  [[nodiscard]] const LoopMeter::Totals& totals() const { return meter_.totals(); }
   /// Whether its priority was granted; true where it asked for none.
   [[nodiscard]] bool priority_granted() const { return granted_; }
 
@@ -43,12 +45,13 @@ class Loop {
   using Steady = std::chrono::steady_clock;
 
   void work();
-  void report(LoopMeter& meter, const LoopStatus& status);
+  void report(const LoopStatus& status);
 
   const std::string name_;
   const Steady::duration period_;
   const int priority_;
   const Body body_;
+  LoopMeter meter_;
   Mailbox<loop_health_t> health_;
   Steady::time_point reported_;
   std::atomic<bool> stopping_ = false;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "bus/messages.h"
+#include "core/files.h"
 #include "executive/executive.h"
 
 /// What the executive says of itself: MISSION, PLAN, HEALTH, and lines.
@@ -33,15 +35,12 @@ candidate_t to_lcm(const active::Candidate& candidate) {
 
 void Executive::publish_mission(const autonomy::MissionEvent* event) {
   if (event != nullptr) last_event_ = *event;
-  const auto plan = board_.plan.latest();
   mission_t message{};
   message.utime = to_utime(board_.clock.now());
   message.phase = to_string(last_event_.to);
-  if (plan) {
-    const autonomy::PlanningReport& report = plan->report;
-    message.targets = report.targets;
-    message.target = std::min(report.visited + report.unreachable + 1, report.targets);
-  }
+  const autonomy::PlanningReport& report = tour_report();
+  message.targets = report.targets;
+  message.target = std::min(report.visited + report.unreachable + 1, report.targets);
   message.elapsed_s =
       took_off_ == 0 ? NAN : static_cast<float>(to_seconds(board_.clock.now() - took_off_));
   message.cause_code = static_cast<std::int32_t>(last_event_.cause);
@@ -81,6 +80,13 @@ void Executive::say_events() {
   }
 }
 
+/// Of the tour, also when it is over.
+const autonomy::PlanningReport& Executive::tour_report() {
+  const auto plan = board_.plan.latest();
+  if (plan && plan->report.targets > 0) tour_report_ = plan->report;
+  return tour_report_;
+}
+
 void Executive::say_health() {
   publish_mission(nullptr);
   health_t message{};
@@ -108,11 +114,33 @@ void Executive::say_progress() {
     loops += fmt::format(" {} {:.1f}/{:.1f} ms", loop->name(), health->median_ms, health->p95_ms);
     if (health->misses > 0) loops += fmt::format(" ({} late)", health->misses);
   }
-  const auto plan = board_.plan.latest();
-  const autonomy::PlanningReport report = plan ? plan->report : autonomy::PlanningReport{};
+  const autonomy::PlanningReport& report = tour_report();
   spdlog::info("{}, target {} of {}, {:.2f} CPU;{}", to_string(last_event_.to),
                std::min(report.visited + report.unreachable + 1, report.targets), report.targets,
                cpu, loops);
+}
+
+void Executive::say_totals() const {
+  for (const auto& loop : loops_) {
+    const LoopMeter::Totals& totals = loop->totals();
+    spdlog::info("{}: {} of {} runs late, at most {:.1f} ms; {:.3f} CPU seconds a second",
+                 loop->name(), totals.misses, totals.runs, totals.worst_lateness_ms,
+                 totals.cpu_s / ran_s_);
+  }
+  spdlog::info("all threads: {:.2f} CPU seconds a second", ran_cpu_s_ / ran_s_);
+}
+
+void Executive::save_loops(const std::filesystem::path& file) const {
+  nlohmann::ordered_json document = {{"wall_s", ran_s_}, {"cpu_s", ran_cpu_s_}};
+  for (const auto& loop : loops_) {
+    const LoopMeter::Totals& totals = loop->totals();
+    document["loops"].push_back({{"name", loop->name()},
+                                 {"runs", totals.runs},
+                                 {"late", totals.misses},
+                                 {"worst_late_ms", totals.worst_lateness_ms},
+                                 {"cpu_s", totals.cpu_s}});
+  }
+  core::write_file(file, document.dump(1) + "\n");
 }
 
 }  // namespace saker::flight

@@ -25,13 +25,15 @@ double LoopMeter::thread_seconds() {
 
 void LoopMeter::ran(Steady::duration took, double cpu_s) {
   cpu_s_ += cpu_s;
+  totals_.cpu_s += cpu_s;
+  ++totals_.runs;
   if (took_ms_.size() < kMostRuns) took_ms_.push_back(milliseconds(took));
 }
 
 void LoopMeter::began_late(Steady::duration lateness) {
   const double late_ms = milliseconds(lateness);
-  worst_lateness_ms_ = std::fmax(worst_lateness_ms_, late_ms);
-  misses_ += late_ms > miss_ms_;
+  totals_.worst_lateness_ms = std::fmax(totals_.worst_lateness_ms, late_ms);
+  totals_.misses += late_ms > miss_ms_;
 }
 
 loop_health_t LoopMeter::take_period(Steady::duration period, double age_ms, long drops) {
@@ -39,8 +41,8 @@ loop_health_t LoopMeter::take_period(Steady::duration period, double age_ms, lon
   loop_health_t health{};
   health.name = name_;
   health.rate_hz = static_cast<float>(static_cast<double>(took_ms_.size()) / seconds);
-  health.misses = misses_;
-  health.worst_lateness_ms = static_cast<float>(worst_lateness_ms_);
+  health.misses = totals_.misses;
+  health.worst_lateness_ms = static_cast<float>(totals_.worst_lateness_ms);
   health.age_ms = static_cast<float>(age_ms);
   health.median_ms = static_cast<float>(core::median(took_ms_));
   health.p95_ms = static_cast<float>(core::percentile(took_ms_, 0.95));

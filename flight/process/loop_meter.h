@@ -18,6 +18,14 @@ class LoopMeter {
   explicit LoopMeter(std::string name, double miss_ms = 5)
       : name_(std::move(name)), miss_ms_(miss_ms) {}
 
+  /// Since the start.
+  struct Totals {
+    long runs = 0;
+    int misses = 0;
+    double worst_lateness_ms = std::numeric_limits<double>::quiet_NaN();
+    double cpu_s = 0;
+  };
+
   /// One run of the loop; it ends with this object.
   class Run {
    public:
@@ -38,15 +46,16 @@ class LoopMeter {
   /// \param age_ms of the newest input; NaN: nothing yet
   [[nodiscard]] loop_health_t take_period(Steady::duration period, double age_ms, long drops);
 
+  [[nodiscard]] const Totals& totals() const { return totals_; }
+
  private:
   [[nodiscard]] static double thread_seconds();
   void ran(Steady::duration took, double cpu_s);
 
   std::string name_;
   double miss_ms_;
-  int misses_ = 0;
-  double worst_lateness_ms_ = std::numeric_limits<double>::quiet_NaN();
-  double cpu_s_ = 0;
+  Totals totals_;
+  double cpu_s_ = 0;  // of this period, like what follows
   std::vector<double> took_ms_;
 };
 

@@ -42,6 +42,8 @@ TEST(ExecutiveLoop, CountsALateRunAndDoesNotMakeUpForIt) {
   EXPECT_GE(health->misses, 1);
   EXPECT_EQ(health->age_ms, 12);
   EXPECT_EQ(health->drops, 3);
+  EXPECT_EQ(loop.totals().runs, runs);
+  EXPECT_GE(loop.totals().worst_lateness_ms, 250);
 }
 
 TEST(ExecutiveLoop, StopsWithoutHavingStarted) {
