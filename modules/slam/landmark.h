@@ -22,7 +22,7 @@ struct LandmarkConfig {
   double square_elongation = 2;
   double class_clamp = 0.05;
   double clutter_probability = 0.6;
-  double least_log_odds = 4;
+  double least_log_odds = 6;
   double moving_distance_m = 1.0;
   double vehicle_length_m = 5;
   double sure_sd = 1.4;
