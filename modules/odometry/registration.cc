@@ -6,28 +6,48 @@
 
 namespace saker::odometry {
 
-Registration::NormalEquations Registration::linearise(std::span<const Eigen::Vector3d> points,
-                                                      const SE3& T, VoxelMap& map, double gate_m,
+namespace {
+
+double rms_range(std::span<const Eigen::Vector3d> points) {
+  double sum = 0;
+  for (const Eigen::Vector3d& point : points) sum += point.squaredNorm();
+  return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+/// How far points at this range are moved, at most.
+double shift(const SE3& motion, double range_m) {
+  return motion.translation().norm() + range_m * core::so3_log(motion.linear()).norm();
+}
+
+}  // namespace
+
+void Registration::associate(std::span<const Eigen::Vector3d> points, const SE3& T, VoxelMap& map,
+                             bool wide) {
+  matches_.clear();
+  for (const Eigen::Vector3d& point : points) {
+    if (const auto plane = map.nearest_plane(T * point, wide)) matches_.push_back({point, *plane});
+  }
+}
+
+Registration::NormalEquations Registration::linearise(const SE3& T, double gate_m,
                                                       double kernel_m) {
   NormalEquations sum;
   distances_.clear();
   const Eigen::Matrix3d R = T.linear();
   const double kernel2 = kernel_m * kernel_m;
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d p = T * point;
-    const auto plane = map.nearest_plane(p, gate_m > 1);
-    if (!plane) continue;
-    const double r = plane->normal.dot(p - plane->point);
+  for (const auto& [point, plane] : matches_) {
+    const double r = plane.normal.dot(T * point - plane.point);
     if (std::abs(r) > gate_m) continue;
     distances_.push_back(static_cast<float>(std::abs(r)));
     const double robust = kernel2 / (kernel2 + r * r);  // Geman-McClure: w = (k² / (k² + r²))²
-    const double w = robust * robust / (config_.noise_m * config_.noise_m + plane->variance);
-    const Eigen::Vector3d n = R.transpose() * plane->normal;
+    const double w = robust * robust / (config_.noise_m * config_.noise_m + plane.variance);
+    const Eigen::Vector3d n = R.transpose() * plane.normal;
     Vector6d J;  // d r / d [rotation, translation], right
     J.head<3>() = point.cross(n);
     J.tail<3>() = n;
-    sum.H.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
-    sum.g += w * r * J;
+    const Vector6d wJ = w * J;
+    sum.H.noalias() += wJ * J.transpose();
+    sum.g += r * wJ;
     sum.chi2 += w * r * r;
     sum.weights += robust * robust;
     if (robust < 0.7) continue;
@@ -52,10 +72,17 @@ RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
   RegistrationResult result;
   result.T_odom_lidar = start;
   const Matrix6d prior_information = prior.covariance.inverse();
+  const double range_m = rms_range(points);
+  SE3 T_associated = start;
+  associate(points, start, map, gate_m > 1);
   double kernel_m = gate_m;
   Matrix6d information = prior_information;
   while (result.iterations < config_.max_iterations && !result.converged) {
-    const NormalEquations sum = linearise(points, result.T_odom_lidar, map, gate_m, kernel_m);
+    if (shift(T_associated.inverse() * result.T_odom_lidar, range_m) > config_.keep_planes_m) {
+      T_associated = result.T_odom_lidar;
+      associate(points, T_associated, map, gate_m > 1);
+    }
+    const NormalEquations sum = linearise(result.T_odom_lidar, gate_m, kernel_m);
     // Residuals larger than the model says widen the covariance; neighbouring points are not
     // independent.
     const double inflation =

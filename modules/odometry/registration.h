@@ -13,6 +13,7 @@ struct RegistrationConfig {
   int max_iterations = 20;
   double stop_m = 2e-4;
   double stop_rad = 1e-5;
+  double keep_planes_m = 0.01;
   double noise_m = 0.02;
   double least_kernel_m = 0.06;
   double correlation = 8;
@@ -66,8 +67,8 @@ struct RegistrationResult {
 /// covariance says so.
 ///
 /// Gauss-Newton; Geman-McClure weights, their width from the median distance of the last step
-/// (Huber, "Robust Statistics", sec. 5.1), closing in from the gate. Cost: points × iterations ×
-/// one hash look-up.
+/// (Huber, "Robust Statistics", sec. 5.1), closing in from the gate. The planes of the points are
+/// looked up again as long as steps are long. Cost: points × a hash look-up for each long step.
 class Registration {
  public:
   explicit Registration(const RegistrationConfig& config) : config_(config) {}
@@ -94,11 +95,18 @@ class Registration {
     int inliers = 0;
   };
 
-  [[nodiscard]] NormalEquations linearise(std::span<const Eigen::Vector3d> points, const SE3& T,
-                                          VoxelMap& map, double gate_m, double kernel_m);
+  /// A point in the lidar frame and the plane it should lie on.
+  struct Match {
+    Eigen::Vector3d point;
+    Plane plane;
+  };
+
+  void associate(std::span<const Eigen::Vector3d> points, const SE3& T, VoxelMap& map, bool wide);
+  [[nodiscard]] NormalEquations linearise(const SE3& T, double gate_m, double kernel_m);
   [[nodiscard]] double next_kernel(double gate_m);
 
   RegistrationConfig config_;
+  std::vector<Match> matches_;
   std::vector<float> distances_;
 };
 

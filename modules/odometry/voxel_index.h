@@ -66,8 +66,12 @@ class VoxelIndex {
     std::uint32_t generation = 0;
   };
 
+  /// Fibonacci hashing (Knuth, vol. 3, 6.4) of the block of 2 × 2 × 2 voxels, whose slots lie side
+  /// by side: who looks for a voxel looks for its neighbours too.
   [[nodiscard]] std::size_t home(VoxelKey key) const {
-    return (key * 0x9E3779B97F4A7C15ull) >> shift_;  // Fibonacci hashing (Knuth, vol. 3, 6.4)
+    constexpr VoxelKey kOdd = VoxelKey{1} << 42 | VoxelKey{1} << 21 | 1;
+    const std::size_t in_block = (key >> 40 & 4) | (key >> 20 & 2) | (key & 1);
+    return ((key & ~kOdd) * 0x9E3779B97F4A7C15ull >> (shift_ + 3)) << 3 | in_block;
   }
 
   std::vector<Slot> slots_;
