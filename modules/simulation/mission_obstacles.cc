@@ -10,6 +10,8 @@ namespace saker::simulation {
 namespace {
 
 constexpr int kTries = 4000;
+constexpr double kAside = 1;     ///< m, sd of their distance from the straight way
+constexpr double kFarAside = 4;  ///< m, where there is no room on it: in the second half of tries
 constexpr double kHalfWidth = 1.5;    ///< m, of a wall and a hedge
 constexpr double kFromVehicle = 1.0;  ///< m from its footprint to the obstacle's end
 constexpr double kFromTrunk = 2.0;    ///< m
@@ -84,7 +86,8 @@ void add_obstacles(FlightWorld& flight, const std::vector<std::size_t>& targets,
     }
     const Eigen::Vector3d a = any_target(), b = any_target();
     Eigen::Vector3d p = a + rng.uniform(0.25, 0.75) * (b - a);
-    p.head<2>() += Eigen::Vector2d(rng.normal(0, 1), rng.normal(0, 1));
+    const double aside = tries < kTries / 2 ? kAside : kFarAside;
+    p.head<2>() += Eigen::Vector2d(rng.normal(0, aside), rng.normal(0, aside));
     if (!far_enough(p)) continue;
     // The middle line of this street is straight: street coordinates are x and y.
     const SE3 T = flight.built.terrain.upright(p.x(), p.y(), rng.uniform(0, std::numbers::pi));
