@@ -26,7 +26,8 @@ void MapTree::update(octomap::OcTreeNode& node, bool fresh, const KeyCube& cube,
                      const ScanBox& box) {
   const std::uint8_t seen = box.seen(cube);
   if (cube.edge == 1) {
-    updateNodeLogOdds(&node, seen == kOccupied ? prob_hit_log : prob_miss_log);
+    const float log_odds = node.getLogOdds() + (seen == kOccupied ? prob_hit_log : prob_miss_log);
+    node.setLogOdds(std::clamp(log_odds, clamping_thres_min, clamping_thres_max));
     return;
   }
   if (!fresh && !nodeHasChildren(&node)) {
