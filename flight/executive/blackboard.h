@@ -54,6 +54,7 @@ struct Blackboard {
   Mailbox<autonomy::Planning::Output> plan;
   Mailbox<motion::Trajectory> committed;
   Mailbox<Setpoint> setpoint;
+  Mailbox<autonomy::GuidanceStop> stop;
   Mailbox<Orders> orders;
   BoundedQueue<autonomy::MissionEvent> events{256};
   std::atomic<bool> land_ordered = false;

@@ -62,6 +62,7 @@ LoopStatus Executive::guide() {
   if (const auto newest = board_.verdict.latest()) verdict = *newest;
   const auto setpoint = guidance_.update(now, board_.orders.latest()->orders.guidance, verdict);
   send_trajectory(now);
+  board_.stop.put(guidance_.last_stop());
   if (setpoint) {
     bus_.publish(to_lcm(*setpoint));
     board_.setpoint.put(*setpoint);
@@ -99,6 +100,7 @@ autonomy::SupervisorInput Executive::seen(Time now) {
     input.heard.planning = plan->report.stamp;
   }
   if (const auto setpoint = board_.setpoint.latest()) input.setpoint = *setpoint;
+  if (const auto stop = board_.stop.latest()) input.stop = *stop;
   input.heard.lidar = board_.newest_scan;
   input.heard.odometry = board_.newest_registered;
   input.acks = board_.acks.take_all();

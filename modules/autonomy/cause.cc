@@ -21,6 +21,7 @@ const char* to_string(Cause cause) {
                                     "collision",
                                     "vehicle_descends",
                                     "off_course",
+                                    "stopped",
                                     "preflight_deadline",
                                     "command_refused",
                                     "command_deadline",

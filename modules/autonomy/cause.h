@@ -21,6 +21,7 @@ enum class Cause {
   collision,         ///< the flight controller felt one
   vehicle_descends,  ///< the flight controller trusts no odometry and comes down by itself
   off_course,        ///< the vehicle does not follow its setpoints
+  stopped,           ///< guidance stops on the way: the verdict, or there is none
   // Waits that ended badly.
   preflight_deadline,
   command_refused,

@@ -106,8 +106,8 @@ CommitStatus Guidance::commit(const Proposal& proposal, Time now) {
 void Guidance::stop(Time now, std::string reason) {
   replace(slowed_down(*committed_, now, config_.stop_acceleration_mps2, config_.step_s), now);
   stopping_ = true;
-  ++stops_;
-  stop_reason_ = std::move(reason);
+  ++last_stop_.count;
+  last_stop_.reason = std::move(reason);
 }
 
 std::optional<std::string> Guidance::reason_to_stop(

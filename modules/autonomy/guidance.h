@@ -53,6 +53,12 @@ struct Proposal {
   std::int64_t from_id = 0;       ///< the committed trajectory at whose state at `start` it begins
 };
 
+/// The last time that guidance stopped on the way: by the verdict, or told to.
+struct GuidanceStop {
+  int count = 0;       ///< of all stops so far
+  std::string reason;  ///< of the last one
+};
+
 enum class CommitStatus {
   committed,
   late,     ///< its start has passed
@@ -82,8 +88,7 @@ class Guidance {
     return committed_;
   }
   [[nodiscard]] bool stopping() const { return stopping_; }  ///< nothing new was committed since
-  [[nodiscard]] int stops() const { return stops_; }
-  [[nodiscard]] const std::string& stop_reason() const { return stop_reason_; }
+  [[nodiscard]] const GuidanceStop& last_stop() const { return last_stop_; }
 
  private:
   void replace(motion::Trajectory trajectory, Time now);
@@ -97,8 +102,7 @@ class Guidance {
   Time committed_at_ = 0;
   GuidanceOrder order_ = GuidanceOrder::silent;
   bool stopping_ = false;
-  int stops_ = 0;
-  std::string stop_reason_;
+  GuidanceStop last_stop_;
 };
 
 /// Stays at a pose: one state, at rest.

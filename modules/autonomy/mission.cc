@@ -48,6 +48,7 @@ Mission::Output Mission::step(const MissionInput& input) {
   now_ = input.now;
   if (begun_ == 0) begun_ = now_;
   out_.command = commands_.step(now_, input.acks);
+  say_stop(input.stop);
   if (!flying() || !obey_safety(input)) {
     switch (phase_) {
       case MissionPhase::preflight:
@@ -241,10 +242,21 @@ void Mission::begin_hold(const SafetyDecision& safety) {
   }
 }
 
+/// A hold has said why already.
+void Mission::say_stop(const GuidanceStop& stop) {
+  if (stop.count != stops_ && phase_ != MissionPhase::hold) say(Cause::stopped, stop.reason);
+  stops_ = stop.count;
+}
+
 void Mission::landing(const MissionInput& input) {
   const bool down = input.vehicle.stamp != 0 && !input.vehicle.armed;
   if (down) {
     go(MissionPhase::done, Cause::landed, fmt::format("outcome: {}", to_string(outcome_)));
+  } else if (now_ - input.plant_heard > from_seconds(config_.gone_s)) {
+    fail(Cause::vehicle_silent);
+    go(MissionPhase::done, Cause::vehicle_silent,
+       fmt::format("neither vehicle nor lidar for {:g} s: nothing is left to be flown; outcome: {}",
+                   config_.gone_s, to_string(outcome_)));
   } else if (overdue(config_.landing_s)) {
     fail(Cause::landing_deadline);
     say(Cause::landing_deadline,

@@ -23,7 +23,8 @@
 ///
 /// Every wait has a deadline, and what happens then only goes to the right: a mission ends. A hold
 /// goes back to what it interrupted, at most `most_holds` times. Landing alone has no way out but
-/// the ground: at each deadline the command is given again, and said so. Reads no clock.
+/// the ground, or that vehicle and lidar are gone: at each deadline the command is given again, and
+/// said so. Reads no clock.
 namespace saker::autonomy {
 
 enum class MissionPhase { preflight, arming, takeoff, tour, return_home, hold, landing, done };
@@ -39,6 +40,7 @@ struct MissionConfig {
   double tour_s = 1500;
   double return_s = 240;
   double landing_s = 60;
+  double gone_s = 3;
   int most_holds = 10;
   CommandConfig command;
 
@@ -52,6 +54,8 @@ struct MissionConfig {
     v.field("tour_s", tour_s, {1, 86400}, "s", "for all targets; then return");
     v.field("return_s", return_s, {1, 3600}, "s", "for the way home; then land where it is");
     v.field("landing_s", landing_s, {5, 600}, "s", "to touch down; then the command is repeated");
+    v.field("gone_s", gone_s, {1, 600}, "s",
+            "landing, neither vehicle nor lidar heard: nothing is left to be flown; then end");
     v.field("most_holds", most_holds, {0, 1000}, "", "in one mission; the next one lands");
     v.group("command", command, "commands to the flight controller");
   }
@@ -73,6 +77,8 @@ struct MissionInput {
   std::vector<Finding> findings;  ///< of safety, on the ground
   SafetyDecision safety;          ///< in flight
   PlanningReport planning;        ///< the newest
+  GuidanceStop stop;              ///< the last one
+  Time plant_heard = 0;           ///< the newest state of the vehicle, or scan
   bool land_ordered = false;      ///< by the operator, or a signal
 };
 
@@ -111,6 +117,7 @@ class Mission {
   void return_home(const MissionInput& input);
   void hold(const MissionInput& input);
   void landing(const MissionInput& input);
+  void say_stop(const GuidanceStop& stop);
   [[nodiscard]] bool obey_safety(const MissionInput& input);
 
   void begin_hold(const SafetyDecision& safety);
@@ -138,6 +145,7 @@ class Mission {
   Time return_begun_ = 0;
   Cause hold_cause_ = Cause::none;
   int holds_ = 0;
+  int stops_ = 0;        // of guidance, that were said
   bool silent_ = false;  // odometry is lost
   bool land_refusal_said_ = false;
   Output out_;

@@ -199,6 +199,7 @@ void MissionLockstep::supervise(Time now) {
   input.setpoint = setpoint_;
   input.acks = std::exchange(acks_, {});
   input.planning = report_;
+  input.stop = guidance_.last_stop();
   input.has_targets = !planning_.policy().targets().empty();
   const Mission::Output output = supervisor_.step(std::move(input));
 
@@ -247,7 +248,7 @@ MissionResult MissionLockstep::finish() {
   result_.phase = mission.phase();
   result_.outcome = mission.outcome();
   result_.targets = planning_.policy().targets();
-  result_.counters.stops = guidance_.stops();
+  result_.counters.stops = guidance_.last_stop().count;
   return std::move(result_);
 }
 

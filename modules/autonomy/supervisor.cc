@@ -36,6 +36,8 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.odometry = input.odometry;
   mission.acks = std::move(input.acks);
   mission.planning = std::move(input.planning);
+  mission.stop = std::move(input.stop);
+  mission.plant_heard = std::max(input.heard.vehicle, input.heard.lidar);
   mission.land_ordered = input.land_ordered;
   mission.safety = safety_.update(seen);
   if (mission_.phase() == MissionPhase::preflight) {

@@ -17,6 +17,7 @@ struct SupervisorInput {
   std::optional<Setpoint> setpoint;  ///< the one that is flown
   std::vector<CommandAck> acks;      ///< since the last step
   PlanningReport planning;           ///< the newest
+  GuidanceStop stop;                 ///< the last one
   bool has_targets = false;
   bool land_ordered = false;
 };

@@ -27,6 +27,7 @@ enum class ScenarioEventKind {
 struct ScenarioEvent {
   ScenarioEventKind kind = ScenarioEventKind::obstacle;
   double at_s = 10;
+  double from_speed_mps = 0;
   double ahead_m = 4;
   double x_m = 0;
   double y_m = 0;
@@ -40,6 +41,8 @@ struct ScenarioEvent {
   void visit(Visitor& v) {
     v.field("kind", kind, "", "obstacle, lidar_stop, odometry_stop, odometry_freeze or gust");
     v.field("at_s", at_s, {0, 7200}, "s", "after take-off");
+    v.field("from_speed_mps", from_speed_mps, {0, 20}, "m/s",
+            "not before it flies so fast over ground: what goes wrong matters most on the way");
     v.field("ahead_m", ahead_m, {0, 100}, "m",
             "obstacle: so far in the direction of flight, across it; 0: at x_m, y_m");
     v.field("x_m", x_m, {-1000, 1000}, "m", "obstacle: its place in `world`");

@@ -189,6 +189,7 @@ VehicleTruth SimulatedVehicle::truth() const {
   truth.nearest_label = contacts_.nearest_label();
   truth.flight_time_s = static_cast<double>(airborne_ticks_) * kTickSeconds;
   truth.path_m = path_m_;
+  truth.events_begun = static_cast<int>(config_.events.size() - events_.size());
   return truth;
 }
 
@@ -205,9 +206,11 @@ void SimulatedVehicle::run_events() {
   }
   if (took_off_ == 0) return;
   const double since = to_seconds(now_ - took_off_);
+  const double speed = body_.state().velocity.head<2>().norm();
   const auto due =
-      std::stable_partition(events_.begin(), events_.end(),
-                            [&](const ScenarioEvent& event) { return event.at_s > since; });
+      std::stable_partition(events_.begin(), events_.end(), [&](const ScenarioEvent& event) {
+        return event.at_s > since || event.from_speed_mps > speed;
+      });
   for (auto event = due; event != events_.end(); ++event) begin(*event);
   events_.erase(due, events_.end());
 }

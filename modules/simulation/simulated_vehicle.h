@@ -18,6 +18,7 @@ struct VehicleTruth {
   int nearest_label = 0;         ///< SemanticKITTI id of what was nearest then
   double flight_time_s = 0;
   double path_m = 0;
+  int events_begun = 0;  ///< of the scenario
 };
 
 /// Where the lidar was at a scan's stamp.

@@ -97,7 +97,7 @@ TEST_F(GuidanceTest, FliesACommittedTrajectoryToItsEndWithoutAJump) {
   const Setpoint end = fly_to(guidance.committed()->end() + kStep, true);
   EXPECT_NEAR(end.position.x(), 14, 0.01);
   EXPECT_TRUE(at_rest());
-  EXPECT_EQ(guidance.stops(), 0);
+  EXPECT_EQ(guidance.last_stop().count, 0);
 }
 
 TEST_F(GuidanceTest, SplicesAProposalToWhatIsFlown) {
@@ -128,8 +128,8 @@ TEST_F(GuidanceTest, StopsOnTheTrajectoryWhenVerdictsFallSilent) {
   (void)fly_to(kStart + 3 * kNanosecondsPerSecond, true);
   (void)fly_to(now + 2 * kNanosecondsPerSecond, false);
   EXPECT_TRUE(at_rest());
-  EXPECT_EQ(guidance.stops(), 1);
-  EXPECT_EQ(guidance.stop_reason(), "no verdict");
+  EXPECT_EQ(guidance.last_stop().count, 1);
+  EXPECT_EQ(guidance.last_stop().reason, "no verdict");
 }
 
 TEST_F(GuidanceTest, StopsWhenANewTrajectoryIsNeverJudged) {
@@ -142,7 +142,7 @@ TEST_F(GuidanceTest, StopsWhenANewTrajectoryIsNeverJudged) {
     (void)fly_to(now, false);
   }
   EXPECT_TRUE(at_rest());
-  EXPECT_EQ(guidance.stop_reason(), "no verdict on this trajectory");
+  EXPECT_EQ(guidance.last_stop().reason, "no verdict on this trajectory");
 }
 
 TEST_F(GuidanceTest, StandsBeforeTheTimeToWhichItIsClear) {
@@ -160,7 +160,7 @@ TEST_F(GuidanceTest, StandsBeforeTheTimeToWhichItIsClear) {
   EXPECT_TRUE(at_rest());
   EXPECT_LT(last.position.x(), limit);
   EXPECT_GT(last.position.x(), limit - 1.0);  // it flies what may be flown
-  EXPECT_EQ(guidance.stop_reason(), "blocked at (9.0, 0.0, 3.0)");
+  EXPECT_EQ(guidance.last_stop().reason, "blocked at (9.0, 0.0, 3.0)");
 }
 
 TEST_F(GuidanceTest, StopsAtOnceWhenTheObstacleIsNearerThanItCanBrake) {
@@ -180,7 +180,7 @@ TEST_F(GuidanceTest, HoldsWhenToldTo) {
   (void)fly_to(kStart + 3 * kNanosecondsPerSecond, true);
   (void)fly_to(now + 2 * kNanosecondsPerSecond, true, GuidanceOrder::hold);
   EXPECT_TRUE(at_rest());
-  EXPECT_EQ(guidance.stop_reason(), "told to hold");
+  EXPECT_EQ(guidance.last_stop().reason, "told to hold");
 }
 
 TEST(SlowedDown, StaysOnTheTrajectoryWithinTheDeceleration) {

@@ -34,6 +34,9 @@ class MissionTest : public testing::Test {
     input.findings = findings;
     input.safety = safety;
     input.planning = planning;
+    input.stop = stop;
+    if (!plant_gone) plant_heard = now;
+    input.plant_heard = plant_heard;
     input.land_ordered = land_ordered;
     const Mission::Output output = mission.step(input);
     orders = output.orders;
@@ -78,6 +81,9 @@ class MissionTest : public testing::Test {
   std::vector<Finding> findings;
   SafetyDecision safety;
   PlanningReport planning;
+  GuidanceStop stop;
+  bool plant_gone = false;
+  Time plant_heard = 0;
   MissionOrders orders;
   std::vector<MissionEvent> events;
   std::vector<Command> commands;
@@ -263,6 +269,37 @@ TEST_F(MissionTest, TellsItToLandAgainAtEachDeadline) {
   refused_kind.reset();
   ASSERT_TRUE(fly_to(MissionPhase::done, config.landing_s + 10));
   EXPECT_EQ(mission.outcome(), Cause::ordered);
+}
+
+TEST_F(MissionTest, EndsWhenVehicleAndLidarAreGoneWhileItLands) {
+  ASSERT_TRUE(fly_to(MissionPhase::tour));
+  plant_gone = true;
+  vehicle_answers = false;
+  fly(2 * config.gone_s);
+  EXPECT_EQ(mission.phase(), MissionPhase::tour);  // the ladder decides when to land
+  safety = {SafetyAction::silence, Cause::odometry_lost, "no registered scan"};
+  ASSERT_TRUE(fly_to(MissionPhase::done, 1));
+  EXPECT_FALSE(mission.succeeded());
+  EXPECT_EQ(events.back().cause, Cause::vehicle_silent);
+}
+
+TEST_F(MissionTest, SaysOnceWhyGuidanceStoppedOnTheWay) {
+  ASSERT_TRUE(fly_to(MissionPhase::tour));
+  stop = {1, "blocked at (9.0, 0.0, 3.0)"};
+  fly(1);
+  EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                          [](const MissionEvent& e) { return e.cause == Cause::stopped; }),
+            1);
+  EXPECT_EQ(mission.phase(), MissionPhase::tour);
+}
+
+TEST_F(MissionTest, AHoldIsNotSaidTwice) {
+  ASSERT_TRUE(fly_to(MissionPhase::tour));
+  safety = {SafetyAction::hold, Cause::lidar_silent, "no scan"};
+  ASSERT_TRUE(fly_to(MissionPhase::hold));
+  stop = {1, "told to hold"};
+  fly(1);
+  EXPECT_FALSE(said(Cause::stopped));
 }
 
 TEST_F(MissionTest, AnOrderBeforeTakeoffEndsItOnTheGround) {

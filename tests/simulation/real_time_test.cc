@@ -117,6 +117,15 @@ TEST(SimRecorder, LeavesWhatTheExecutiveNeedsAndWhatWasTrue) {
   EXPECT_NE(core::read_file(sim.out / "site.yaml").find("polygon_m: ["), std::string::npos);
 }
 
+TEST(SimRecorder, WritesWhereItIsTwentyTimesASecondAsItGoes) {
+  Running sim("sim_flight");
+  const Time end = sim.vehicle.now() + from_seconds(1);
+  sim.real_time.run(sim.recorder, [&] { return sim.vehicle.now() >= end; });
+  const std::string rows = core::read_file(sim.out / "flight_truth.csv");  // before `finish`
+  EXPECT_NEAR(static_cast<double>(std::count(rows.begin(), rows.end(), '\n')), 21, 2);
+  EXPECT_NE(rows.find(",0,idle,"), std::string::npos) << rows;
+}
+
 TEST(Scenarios, ThoseOfTheRepositoryAreMissionsWithRoom) {
   for (const std::string name : {"demo", "small"}) {
     const std::string file = SAKER_SOURCE_DIR "/configs/scenarios/" + name + ".yaml";

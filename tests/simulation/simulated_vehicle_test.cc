@@ -177,6 +177,18 @@ TEST(SimulatedVehicle, AStoppedLidarSendsNothing) {
   EXPECT_TRUE(pilot.vehicle.take_packets().empty());
 }
 
+TEST(SimulatedVehicle, AnEventWaitsUntilItFliesSoFast) {
+  ScenarioEvent stop;
+  stop.kind = ScenarioEventKind::lidar_stop;
+  stop.at_s = 0;
+  stop.from_speed_mps = 0.5;
+  Pilot pilot(with_event(stop), 6);
+  ASSERT_TRUE(pilot.take_off(2));
+  EXPECT_EQ(pilot.vehicle.truth().events_begun, 0);
+  pilot.fly_to({3, 0, 2}, 1.5, 4);
+  EXPECT_EQ(pilot.vehicle.truth().events_begun, 1);
+}
+
 TEST(SimulatedVehicle, WithoutOdometryItDescendsAndWithFrozenOdometryToo) {
   for (const auto kind : {ScenarioEventKind::odometry_stop, ScenarioEventKind::odometry_freeze}) {
     ScenarioEvent event;

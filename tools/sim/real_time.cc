@@ -101,6 +101,13 @@ void RealTime::log_change(const VehicleState& state) {
   if (last.armed && !state.armed && vehicle_.truth().has_flown) disarmed_at_ = vehicle_.now();
 }
 
+void RealTime::log_events() {
+  const int begun = vehicle_.truth().events_begun;
+  if (begun == events_begun_) return;
+  events_begun_ = begun;
+  spdlog::info("event {} of the scenario", begun);
+}
+
 bool RealTime::is_over() const {
   return disarmed_at_ != 0 && to_seconds(vehicle_.now() - disarmed_at_) > kLinger;
 }
@@ -114,7 +121,8 @@ SimRecorder::Run RealTime::run(SimRecorder& recorder, const std::function<bool()
     advance();
     send_packets();
     send_states();
-    recorder.record(vehicle_);
+    recorder.record(vehicle_, last_state_);
+    log_events();
     if (Steady::now() >= next_announcement) {
       presence_.announce();
       next_announcement += flight::Presence::kPeriod;

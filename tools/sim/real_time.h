@@ -37,6 +37,7 @@ class RealTime {
   void send_packets();
   void send_states();
   void log_change(const VehicleState& state);
+  void log_events();
   [[nodiscard]] bool is_over() const;
 
   simulation::SimulatedVehicle& vehicle_;
@@ -50,6 +51,7 @@ class RealTime {
   Time begin_;
   double behind_s_ = 0;
   VehicleState last_state_;
+  int events_begun_ = 0;
   Time disarmed_at_ = 0;  // after a flight
 };
 

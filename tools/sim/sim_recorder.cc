@@ -5,12 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "core/config_value.h"
+#include "core/error.h"
 #include "lidar/metadata.h"
 #include "objects/map_io.h"
 #include "simulation/truth.h"
 
 namespace saker::tools {
 namespace {
+
+constexpr Time kRowPeriod = kNanosecondsPerSecond / 20;
 
 /// The executive's configuration as far as the site and the vehicle give it.
 std::string site_yaml(const simulation::MissionFence& fence,
@@ -35,15 +38,31 @@ std::string site_yaml(const simulation::MissionFence& fence,
 SimRecorder::SimRecorder(const std::filesystem::path& out, const simulation::MissionConfig& config,
                          const simulation::SimulatedVehicle& vehicle,
                          const lidar::SensorInfo& sensor)
-    : out_(out), trajectory_(out / "trajectory_truth.txt") {
+    : out_(out), trajectory_(out / "trajectory_truth.txt"), flight_(out / "flight_truth.csv") {
+  if (!flight_) throw Error("cannot write " + (out / "flight_truth.csv").string());
+  flight_ << "t_s,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,armed,mode,faults,collisions,events\n"
+          << std::flush;
   core::write_file(out / "site.yaml", site_yaml(vehicle.site().fence, config.mount));
   objects::write_map(out / "prior.json", vehicle.site().prior, {});
   lidar::write_metadata(sensor, out / "metadata.json");
 }
 
-void SimRecorder::record(simulation::SimulatedVehicle& vehicle) {
+void SimRecorder::record(simulation::SimulatedVehicle& vehicle, const VehicleState& state) {
+  if (vehicle.now() >= next_row_) {
+    next_row_ = vehicle.now() + kRowPeriod;
+    record_flight(vehicle.truth(), state);
+  }
   for (const simulation::ScanTruth& scan : vehicle.take_scan_truth())
     trajectory_.write(simulation::tum_row(scan.stamp, scan.T_world_lidar));
+}
+
+void SimRecorder::record_flight(const simulation::VehicleTruth& truth, const VehicleState& state) {
+  const Eigen::Vector3d p = truth.T_world_body.translation(), &v = truth.velocity;
+  flight_ << fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:d},{},{},{},{}\n",
+                         to_seconds(truth.stamp), p.x(), p.y(), p.z(), v.x(), v.y(), v.z(),
+                         state.armed, to_string(state.mode), state.faults, truth.collisions,
+                         truth.events_begun)
+          << std::flush;
 }
 
 void SimRecorder::finish(const simulation::SimulatedVehicle& vehicle, const Run& run) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/files.h"
 #include "simulation/simulated_vehicle.h"
@@ -10,8 +11,9 @@ namespace saker::tools {
 /// What a simulated flight leaves behind.
 ///
 /// From the start, for the executive: metadata.json (the sensor), prior.json (the targets, roughly)
-/// and site.yaml (configuration: geofence and mount). At the end: truth.json, trajectory_truth.txt
-/// (TUM rows, T_world_lidar at each scan's stamp) and sim.json.
+/// and site.yaml (configuration: geofence and mount). On the way: flight_truth.csv (20 Hz, place
+/// and velocity in `world`, a line at a time, so that it can be read at once). At the end:
+/// truth.json, trajectory_truth.txt (TUM rows, T_world_lidar at each scan's stamp) and sim.json.
 class SimRecorder {
  public:
   /// Figures that only the process knows.
@@ -30,13 +32,17 @@ class SimRecorder {
   SimRecorder(const std::filesystem::path& out, const simulation::MissionConfig& config,
               const simulation::SimulatedVehicle& vehicle, const lidar::SensorInfo& sensor);
 
-  /// To be called once a second at least.
-  void record(simulation::SimulatedVehicle& vehicle);
+  /// To be called 20 times a second at least. \param state  the newest one
+  void record(simulation::SimulatedVehicle& vehicle, const VehicleState& state);
   void finish(const simulation::SimulatedVehicle& vehicle, const Run& run);
 
  private:
+  void record_flight(const simulation::VehicleTruth& truth, const VehicleState& state);
+
   std::filesystem::path out_;
   core::OutputFile trajectory_;
+  std::ofstream flight_;
+  Time next_row_ = 0;
 };
 
 }  // namespace saker::tools
