@@ -28,6 +28,8 @@ struct RegistrationConfig {
     v.field("stop_m", stop_m, {1e-7, 0.1}, "m",
             "a step shorter than this ends it: a tenth of the noise of a pose");
     v.field("stop_rad", stop_rad, {1e-8, 0.1}, "rad", "and turned by less than this");
+    v.field("keep_planes_m", keep_planes_m, {0, 0.5}, "m",
+            "points that moved less, in the mean, keep their planes: a fraction of a voxel");
     v.field("noise_m", noise_m, {0.001, 0.5}, "m",
             "sd of a range; a plane's own thickness is added");
     v.field("least_kernel_m", least_kernel_m, {0.005, 2}, "m",
