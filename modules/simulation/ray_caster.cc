@@ -39,7 +39,6 @@ void attach(RTCScene scene, RTCGeometry geometry) {
 
 RTCScene scene_of(RTCDevice device, const Mesh& mesh) {
   RTCScene scene = rtcNewScene(device);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
   attach(scene, triangles_of(device, mesh));
   rtcCommitScene(scene);
   return scene;

@@ -2,23 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace saker::simulation {
 namespace {
 
 constexpr int kMostSurfaces = 6;  ///< that a beam may pass
 
-/// Share of the light that comes back from where it met the surface: diffuse, and a narrow
-/// highlight.
-double returned_share(const Material& m, double cosine) {
-  const double diffuse = (1 - m.gloss) * std::pow(cosine, 0.7);
+/// Two independent normal numbers for little more than the cost of one: Box–Muller's both.
+std::pair<double, double> two_normals(core::Rng& rng) {
+  const double radius = std::sqrt(-2 * std::log(1 - rng.uniform()));
+  const double angle = 2 * std::numbers::pi * rng.uniform();
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// Share of the light that comes back from where it met the surface, of the diffuse one.
+double returned_share(const Material& m, double cosine, double diffuse) {
   const double highlight = m.gloss * 2.5 * std::exp(-(1 - cosine) / 0.02);
-  return diffuse + highlight;
+  return (1 - m.gloss) * diffuse + highlight;
 }
 
 /// Chance that a surface sends the pulse elsewhere: glass nearly always, dark polished paint at
 /// grazing angles.
 double mirrored_away(const Material& m, double cosine) {
+  if (m.gloss == 0) return 0;
   const double grazing = 1 - cosine;
   return std::min(1.0, std::pow(m.gloss, 6) * (0.1 + grazing) + std::pow(m.gloss, 60));
 }
@@ -57,11 +65,14 @@ void Scanner::aim(int column, const SE3& T_world_lidar, core::Rng& rng,
   const double spread = 1e-3 * config_.divergence_mrad;
   for (int row = 0; row < beams_.rows; ++row) {
     const std::size_t i = beams_.index(row, column);
-    const Eigen::Vector3d jitter{rng.normal(0, spread), rng.normal(0, spread),
-                                 rng.normal(0, spread)};
+    const auto [across, along] = two_normals(rng);
+    const Eigen::Vector3f& beam = beams_.directions[i];
+    const Eigen::Vector3f aside = beam.unitOrthogonal();
+    const Eigen::Vector3f jitter = static_cast<float>(spread * across) * aside +
+                                   static_cast<float>(spread * along) * beam.cross(aside);
     Shot shot;
     shot.origin = T * beams_.origins[i];
-    shot.direction = T.linear() * (beams_.directions[i] + jitter.cast<float>()).normalized();
+    shot.direction = T.linear() * (beam + jitter).normalized();
     shots.push_back(shot);
   }
 }
@@ -107,21 +118,23 @@ void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, Cas
   if (!shot.hit || rng.chance(config_.drop_share)) return;
   const Material& m = world_->materials[shot.material];
   const double cosine = std::max(0.01, static_cast<double>(shot.cosine));
-  const double share = returned_share(m, cosine);
+  const double diffuse = std::pow(cosine, 0.7);
+  const double share = returned_share(m, cosine, diffuse);
   const double reflectivity = std::clamp(m.reflectivity + rng.normal(0, m.spread), 0.005, 1.0);
   if (rng.chance(mirrored_away(m, cosine))) return;
   const double power = reflectivity * share / (shot.distance * shot.distance);
   if (!rng.chance(1 - std::exp(-power / config_.sensitivity))) return;
 
-  const double before = std::min(0.7, std::abs(rng.normal(0, m.depth)) / std::max(cosine, 0.05));
+  const auto [depth, noise] = two_normals(rng);
+  const double before = std::min(0.7, m.depth * std::abs(depth) / std::max(cosine, 0.05));
   const double sd = config_.noise_m + config_.noise_per_m * shot.distance;
-  const double range = shot.distance - before + rng.normal(beam_bias_[row], sd);
+  const double range = shot.distance - before + beam_bias_[row] + sd * noise;
   if (!(range >= config_.min_range_m && range <= config_.max_range_m)) return;
 
   const std::size_t i = beams_.index(row, column);
   scan.range_m[i] = static_cast<float>(range);
   scan.points[i] = beams_.origins[i] + static_cast<float>(range) * beams_.directions[i];
-  const double seen = reflectivity * std::min(1.0, share / std::pow(cosine, 0.7));
+  const double seen = reflectivity * std::min(1.0, share / diffuse);
   scan.reflectivity[i] = static_cast<float>(std::round(100 * std::clamp(seen, 0.0, 0.99)) / 100);
   scan.labels[i] = m.label;
   scan.objects[i] = shot.object;
