@@ -4,6 +4,7 @@
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <omp.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -120,6 +121,7 @@ class Graph {
 };
 
 ceres::Solver::Options solver_options(const GraphConfig& config, const core::Budget& budget) {
+  omp_set_max_active_levels(0);  // CHOLMOD's threads wait for each other longer than they work
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = std::min(config.iterations, budget.most_iterations());
