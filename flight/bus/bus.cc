@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "bus/multicast.h"
+#include "bus/priority.h"
 #include "core/error.h"
 
 namespace saker::flight {
@@ -14,6 +15,7 @@ namespace {
 
 // LCM drops the newest message of a full queue; `handle` drains, so that this many are a burst.
 constexpr int kQueueCapacity = 256;
+constexpr int kReceiverPriority = 52;  // of LCM's thread: above those who read what it copies
 constexpr int kMostAtOnce = 1024;  // of a network; then `handle` returns even if more keep coming
 
 void check_network(const std::string& url, int buffer_kb) {
@@ -35,7 +37,8 @@ std::unique_ptr<lcm::LCM> opened(const std::string& url, int buffer_kb) {
   const std::string separator = url.find('?') == std::string::npos ? "?" : "&";
   auto network = std::make_unique<lcm::LCM>(url + separator +
                                             "recv_buf_size=" + std::to_string(buffer_kb * 1024));
-  // Asking for the descriptor starts the receiver and its test.
+  // Asking for the descriptor starts the receiver and its test. It only copies, and must not wait.
+  const RaisedPriority raised(kReceiverPriority);
   if (!network->good() || network->getFileno() < 0) {
     throw Error("LCM cannot be opened on " + url + "; saker doctor says more");
   }

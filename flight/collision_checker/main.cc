@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bus/presence.h"
+#include "bus/priority.h"
 #include "collision_checker/checker_process.h"
 #include "core/config_io.h"
 #include "core/error.h"
@@ -12,6 +13,8 @@ namespace saker::flight {
 namespace {
 
 using Steady = CheckerProcess::Steady;
+
+constexpr int kPriority = 30;  // above the executive's ingestion, below all that flies
 
 /// One thread: waits for messages until something is due, works, says.
 void serve(Bus& bus, Presence& presence, CheckerProcess& checker) {
@@ -34,6 +37,7 @@ int run(const ProcessOptions& options) {
   Presence presence(bus, "saker-collision-checker");
   presence.claim();
   CheckerProcess checker(config, bus);
+  if (const std::string fault = take_priority(kPriority); !fault.empty()) spdlog::warn(fault);
   spdlog::info("listens as {}", options.robot);
   serve(bus, presence, checker);
   spdlog::info("ends as asked");

@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include "bus/priority.h"
 #include "core/config_io.h"
 #include "core/error.h"
 #include "process/configuration.h"
@@ -10,6 +11,8 @@
 
 namespace saker::tools {
 namespace {
+
+constexpr int kPriority = 45;  // an aircraft waits for no program: below the executive's I/O alone
 
 struct SimOptions {
   std::string scenario;
@@ -41,6 +44,8 @@ int simulate(const flight::ProcessOptions& options, const SimOptions& sim) {
   SimRecorder recorder(out.path(), mission, vehicle, sensor);
   spdlog::info("{} stands at the take-off point; {} targets", options.robot,
                vehicle.site().prior.objects.size());
+  if (const std::string fault = flight::take_priority(kPriority); !fault.empty())
+    spdlog::warn(fault);
   SimRecorder::Run run = real_time.run(recorder, [] { return flight::stop_requests() > 0; });
   run.seed = sim.output.seed;
   recorder.finish(vehicle, run);
