@@ -139,6 +139,8 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.stamp = now;
   result.reset_counter = reset_counter_;
   if (!started_) return result;
+  // A pose that stays must not claim to be of now: who flies by it would take it for a lie.
+  result.stamp = std::min(now, newest_.stamp + from_seconds(kLongestAhead_s));
   const double silent = to_seconds(now - newest_.stamp);
   const double ahead = std::min(silent, kLongestAhead_s);
   const double age = to_seconds(now - scan_.stamp);

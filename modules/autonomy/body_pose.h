@@ -74,8 +74,8 @@ class BodyPose {
   /// The pose of a registered scan; not for predicted ones. Older than the last one: left out.
   void correct(Time stamp, const SE3& T_odom_lidar);
 
-  /// At `now`, propagated from the newest sample at constant velocity and turn. Lost before the
-  /// first scan.
+  /// At `now`, propagated from the newest sample at constant velocity and turn, but by 0.05 s at
+  /// most: then its stamp stays too. Lost before the first scan.
   [[nodiscard]] VehicleOdometry at(Time now) const;
 
  private:

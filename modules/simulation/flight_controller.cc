@@ -81,7 +81,10 @@ void FlightController::enter(VehicleMode mode) {
   if (mode != VehicleMode::descend) return;
   descend_height_ = estimator_.inertial().height();
   descend_yaw_ = core::yaw(estimator_.inertial().attitude());
-  coasts_ = (estimator_.faults() & kOdometryRejected) == 0;  // what lied left a wrong velocity
+  // What lied may have left a velocity that is wrong by the gate, but not by more.
+  const bool lied = (estimator_.faults() & kOdometryRejected) != 0;
+  const double most_wrong = config_.estimator.odometry.velocity_gate_mps;
+  coasts_ = !lied || estimator_.odometry().velocity().norm() > most_wrong;
   if (!coasts_) controller_.forget();
 }
 

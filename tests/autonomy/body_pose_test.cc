@@ -148,6 +148,7 @@ TEST(BodyPose, ExtrapolatesNoFartherThanATwentiethOfASecondWhenTheInertialUnitIs
                         late = pose.at(end + from_seconds(0.3));
   EXPECT_EQ(soon.status, VehicleOdometryStatus::predicted);
   EXPECT_TRUE(soon.T_odom_body.isApprox(late.T_odom_body));
+  EXPECT_EQ(soon.stamp, late.stamp);
 }
 
 TEST(BodyPose, CoastsOnTheInertialUnitWhenScansStop) {

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "faulty_flight.h"
+
+// What goes wrong in flight, in lockstep: at rest or landing within two seconds, nothing is hit,
+// and the cause is said. tests/flight/fault_process_test.py does the same with processes.
+namespace saker::autonomy {
+namespace {
+
+using simulation::ScenarioEvent;
+using simulation::ScenarioEventKind;
+
+constexpr double kSettled_s = 2;
+constexpr double kLongEnough_s = 3;
+
+/// As soon as it flies so fast.
+std::vector<ScenarioEvent> on_the_way(ScenarioEventKind kind, double speed = FaultyFlight::kFast) {
+  ScenarioEvent event;
+  event.kind = kind;
+  event.at_s = 0;
+  event.from_speed_mps = speed;
+  return {event};
+}
+
+TEST(Fault, WithoutTheExecutiveTheVehicleComesDownByItself) {
+  FaultyFlight flight;
+  ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::deaf; }));
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_TRUE((flight.faults() & kNoOdometry) != 0);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST(Fault, WithoutTheCollisionCheckerItStops) {
+  FaultyFlight flight;
+  ASSERT_TRUE(flight.fly_fast_into([&] { flight.checker.dead = true; }));
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_LE(flight.said_after(Cause::checker_silent), kSettled_s);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST(Fault, WithoutAPlantTheMissionSaysSoAndEnds) {
+  FaultyFlight flight;
+  ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::gone; }));
+  flight.go_on(2 * kLongEnough_s);
+  EXPECT_LE(flight.said_after(Cause::lidar_silent), kSettled_s);
+  EXPECT_GE(flight.said_after(Cause::vehicle_silent), MissionConfig{}.gone_s);
+  EXPECT_EQ(flight.result().phase, MissionPhase::done);
+  EXPECT_FALSE(flight.result().succeeded);
+}
+
+TEST(Fault, WithoutTheLidarItLands) {
+  FaultyFlight flight(on_the_way(ScenarioEventKind::lidar_stop));
+  ASSERT_TRUE(flight.fly_into_event());
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_LE(flight.said_after(Cause::lidar_silent), kSettled_s);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST(Fault, WithOdometryThatFreezesItLands) {
+  FaultyFlight flight(on_the_way(ScenarioEventKind::odometry_freeze));
+  ASSERT_TRUE(flight.fly_into_event());
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_LE(flight.said_after(Cause::vehicle_descends), kSettled_s);
+  EXPECT_TRUE((flight.faults() & kOdometryRejected) != 0);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST(Fault, WithOdometryThatStopsItLands) {
+  FaultyFlight flight(on_the_way(ScenarioEventKind::odometry_stop));
+  ASSERT_TRUE(flight.fly_into_event());
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_LE(flight.said_after(Cause::vehicle_descends), kSettled_s);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST(Fault, AnObstacleThatComesIntoTheWayStopsIt) {
+  // On a straight part of the way: faster than its turns are flown.
+  FaultyFlight flight(on_the_way(ScenarioEventKind::obstacle, 2.0));
+  ASSERT_TRUE(flight.fly_into_event());
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_LE(flight.said_after(Cause::stopped), kSettled_s);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+}  // namespace
+}  // namespace saker::autonomy

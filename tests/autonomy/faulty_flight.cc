@@ -1,0 +1,148 @@
+#include "faulty_flight.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace saker::autonomy {
+namespace {
+
+constexpr double kTakeoff_s = 8;  // nothing is fast before
+constexpr double kSlice_s = 2;    // of a run: each ends with the covariance of the map
+constexpr double kMost_s = 40;    // until the fault
+constexpr double kAtRest_mps = 0.2;
+
+simulation::MissionConfig scenario(std::vector<simulation::ScenarioEvent> events) {
+  simulation::MissionConfig config;
+  config.capture.rows = 32;
+  config.capture.columns = 512;
+  config.site.targets = 2;
+  config.events = std::move(events);
+  return config;
+}
+
+bool lands(const VehicleState& state) {
+  return !state.armed || state.mode == VehicleMode::land || state.mode == VehicleMode::descend;
+}
+
+/// Keeps what happened over several slices of one run.
+class Listener : public MissionObserver {
+ public:
+  explicit Listener(std::vector<MissionEvent>& events) : events_(events) {}
+  void on_event(const MissionEvent& event) override { events_.push_back(event); }
+
+ private:
+  std::vector<MissionEvent>& events_;
+};
+
+}  // namespace
+
+void RecordedPlant::step_to(Time time) {
+  SimulatedPlant::step_to(time);
+  const simulation::VehicleTruth truth = vehicle_.truth();
+  const VehicleState last = rows.empty() ? VehicleState{} : rows.back().state;
+  rows.push_back({truth.stamp, truth.velocity.norm(), last});
+  if (watch) watch(truth);
+}
+
+std::vector<SensorPacket> RecordedPlant::take_packets() {
+  auto packets = SimulatedPlant::take_packets();
+  if (link == Link::gone) packets.clear();
+  return packets;
+}
+
+std::optional<VehicleState> RecordedPlant::take_state() {
+  const auto state = SimulatedPlant::take_state();
+  if (state && !rows.empty()) rows.back().state = *state;
+  return link == Link::gone ? std::nullopt : state;
+}
+
+std::vector<CommandAck> RecordedPlant::take_acks() {
+  auto acks = SimulatedPlant::take_acks();
+  if (link == Link::gone) acks.clear();
+  return acks;
+}
+
+void RecordedPlant::send(const VehicleOdometry& odometry) {
+  if (link == Link::up) SimulatedPlant::send(odometry);
+}
+void RecordedPlant::send(const Setpoint& setpoint) {
+  if (link == Link::up) SimulatedPlant::send(setpoint);
+}
+void RecordedPlant::send(const Command& command) {
+  if (link == Link::up) SimulatedPlant::send(command);
+}
+
+std::optional<motion::Verdict> MortalChecker::take_verdict() {
+  const auto verdict = LocalChecker::take_verdict();
+  return dead ? std::nullopt : verdict;
+}
+
+std::shared_ptr<const occupancy::OccupancyGrid> MortalChecker::take_grid() {
+  auto grid = LocalChecker::take_grid();
+  return dead ? nullptr : grid;
+}
+
+FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
+    : vehicle_(scenario(std::move(events)), 1),
+      plant(vehicle_),
+      checker(config_.local_checker, config_.collision_checker, config_.motion.clearance) {
+  const simulation::MissionFence& fence = vehicle_.site().fence;
+  config_.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
+  mission_ = std::make_unique<MissionLockstep>(config_, vehicle_.sensor(), vehicle_.site().prior,
+                                               plant, checker, 2, timings_);
+}
+
+bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
+                            const std::function<void()>& fault) {
+  plant.watch = [this, when, fault](const simulation::VehicleTruth& truth) {
+    if (fault_ != 0 || !when(truth)) return;
+    fault_ = truth.stamp;
+    fault();
+  };
+  const Time end = plant.now() + from_seconds(kMost_s);
+  go_on(kTakeoff_s);
+  while (fault_ == 0 && plant.now() < end && result_.phase != MissionPhase::done) go_on(kSlice_s);
+  return fault_ != 0;
+}
+
+bool FaultyFlight::fly_fast_into(const std::function<void()>& fault) {
+  const auto fast = [](const simulation::VehicleTruth& truth) {
+    return truth.velocity.head<2>().norm() > kFast;
+  };
+  return fly_into(fast, fault);
+}
+
+bool FaultyFlight::fly_into_event() {
+  return fly_into([](const simulation::VehicleTruth& truth) { return truth.events_begun > 0; },
+                  [] {});
+}
+
+void FaultyFlight::go_on(double seconds) {
+  Listener listener(events_);
+  result_ = mission_->run(seconds, listener);
+}
+
+double FaultyFlight::settled_after() const {
+  for (const RecordedPlant::Row& row : plant.rows) {
+    if (row.stamp <= fault_) continue;
+    if (row.speed < kAtRest_mps || lands(row.state)) return to_seconds(row.stamp - fault_);
+  }
+  return INFINITY;
+}
+
+double FaultyFlight::said_after(Cause cause) const {
+  for (const MissionEvent& event : events_) {
+    if (event.cause == cause && event.stamp >= fault_) return to_seconds(event.stamp - fault_);
+  }
+  return NAN;
+}
+
+std::uint32_t FaultyFlight::faults() const {
+  std::uint32_t faults = 0;
+  for (const RecordedPlant::Row& row : plant.rows) {
+    if (row.stamp > fault_) faults |= row.state.faults;
+  }
+  return faults;
+}
+
+}  // namespace saker::autonomy

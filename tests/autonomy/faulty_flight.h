@@ -1,0 +1,98 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "autonomy/local_checker.h"
+#include "autonomy/mission_lockstep.h"
+#include "plant/simulated_plant.h"
+
+namespace saker::autonomy {
+
+/// The simulated vehicle, of which the flight is recorded, and that can be cut off.
+class RecordedPlant : public tools::SimulatedPlant {
+ public:
+  enum class Link {
+    up,
+    deaf,  ///< nothing reaches the vehicle: the executive has died
+    gone   ///< nothing comes from it either: the plant has died
+  };
+  struct Row {
+    Time stamp = 0;
+    double speed = 0;  // m/s
+    VehicleState state;
+  };
+
+  explicit RecordedPlant(simulation::SimulatedVehicle& vehicle)
+      : SimulatedPlant(vehicle), vehicle_(vehicle) {}
+
+  void step_to(Time time) override;
+  [[nodiscard]] std::vector<SensorPacket> take_packets() override;
+  [[nodiscard]] std::optional<VehicleState> take_state() override;
+  [[nodiscard]] std::vector<CommandAck> take_acks() override;
+  void send(const VehicleOdometry& odometry) override;
+  void send(const Setpoint& setpoint) override;
+  void send(const Command& command) override;
+
+  Link link = Link::up;
+  std::vector<Row> rows;
+  std::function<void(const simulation::VehicleTruth&)> watch;  ///< at every step
+
+ private:
+  simulation::SimulatedVehicle& vehicle_;
+};
+
+/// The collision checker, that can die.
+class MortalChecker : public LocalChecker {
+ public:
+  using LocalChecker::LocalChecker;
+  [[nodiscard]] std::optional<motion::Verdict> take_verdict() override;
+  [[nodiscard]] std::shared_ptr<const occupancy::OccupancyGrid> take_grid() override;
+
+  bool dead = false;
+};
+
+/// A small mission in lockstep that something goes wrong with while it flies.
+class FaultyFlight {
+ public:
+  explicit FaultyFlight(std::vector<simulation::ScenarioEvent> events = {});
+
+  /// The fault comes when it flies faster than `kFast`; false when it never does.
+  bool fly_fast_into(const std::function<void()>& fault);
+  /// The fault is the scenario's event; false when it never begins.
+  bool fly_into_event();
+  /// Goes on for so long after the fault, or until the mission is done.
+  void go_on(double seconds);
+
+  /// Seconds from the fault until the vehicle was at rest or landing.
+  [[nodiscard]] double settled_after() const;
+  /// Seconds from the fault until the cause was said; NaN: never.
+  [[nodiscard]] double said_after(Cause cause) const;
+  /// Of the vehicle, since the fault: all bits that were ever set.
+  [[nodiscard]] std::uint32_t faults() const;
+  [[nodiscard]] int collisions() const { return vehicle_.truth().collisions; }
+  [[nodiscard]] const MissionResult& result() const { return result_; }
+
+  static constexpr double kFast = 0.7;  // m/s over ground
+
+ private:
+  bool fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
+                const std::function<void()>& fault);
+
+  Config config_;
+  core::Timings timings_;
+  simulation::SimulatedVehicle vehicle_;
+
+ public:
+  RecordedPlant plant;
+  MortalChecker checker;
+
+ private:
+  std::unique_ptr<MissionLockstep> mission_;
+  MissionResult result_;
+  std::vector<MissionEvent> events_;
+  Time fault_ = 0;
+};
+
+}  // namespace saker::autonomy
