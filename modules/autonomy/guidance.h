@@ -20,7 +20,7 @@ namespace saker::autonomy {
 
 struct GuidanceConfig {
   double setpoint_expiry_s = 0.3;
-  double verdict_silence_s = 0.5;
+  double verdict_silence_s = 0.35;
   double stop_acceleration_mps2 = 2.0;
   double stop_margin_s = 0.15;
   double step_s = 0.05;
@@ -30,7 +30,7 @@ struct GuidanceConfig {
     v.field("setpoint_expiry_s", setpoint_expiry_s, {0.04, 2}, "s",
             "after which a setpoint is no longer obeyed: fifteen missed ones");
     v.field("verdict_silence_s", verdict_silence_s, {0.15, 5}, "s",
-            "without a verdict, or without one on a new trajectory, then stop");
+            "without a verdict, or without one on a new trajectory, then stop: four of 10 Hz");
     v.field("stop_acceleration_mps2", stop_acceleration_mps2, {0.1, 20}, "m/s²",
             "along the trajectory");
     v.field("stop_margin_s", stop_margin_s, {0, 2}, "s",
