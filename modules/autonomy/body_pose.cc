@@ -27,21 +27,6 @@ SE3 pose_of(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 
 }  // namespace
 
-SE3 mount_pose(const MountConfig& config) {
-  if (config.position_m.size() != 3 || config.rotation_deg.size() != 3) {
-    throw Error(
-        fmt::format("mount: {} and {} numbers, expected three of position_m and three of "
-                    "rotation_deg",
-                    config.position_m.size(), config.rotation_deg.size()));
-  }
-  const auto angle = [&](int i) { return config.rotation_deg[i] * kRadians; };
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(angle(2), Eigen::Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(angle(1), Eigen::Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(angle(0), Eigen::Vector3d::UnitX()))
-                                .toRotationMatrix();
-  return pose_of(R, Eigen::Vector3d::Map(config.position_m.data()));
-}
-
 BodyPose::BodyPose(const BodyPoseConfig& config, const SE3& T_body_lidar)
     : config_(core::checked(config, "body_pose")), T_body_lidar_(T_body_lidar) {}
 

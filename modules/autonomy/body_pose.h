@@ -20,22 +20,6 @@
 /// microseconds a sample; a correction integrates the samples since its stamp again.
 namespace saker::autonomy {
 
-/// How the LiDAR is mounted: T_body_lidar.
-struct MountConfig {
-  std::vector<double> position_m = {0, 0, 0.1};
-  std::vector<double> rotation_deg = {0, 0, 0};
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v.field("position_m", position_m, {-5, 5}, "m", "of the lidar's origin in body: x, y, z");
-    v.field("rotation_deg", rotation_deg, {-180, 180}, "°",
-            "roll, pitch, yaw of the lidar in body: about z, then y, then x");
-  }
-};
-
-/// Throws Error when there are not three numbers each.
-[[nodiscard]] SE3 mount_pose(const MountConfig& config);
-
 struct BodyPoseConfig {
   double memory = 0.6;
   double fresh_s = 0.4;

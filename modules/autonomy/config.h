@@ -10,6 +10,7 @@
 #include "autonomy/standstill.h"
 #include "core/config.h"
 #include "detection/detection.h"
+#include "lidar/mount.h"
 #include "motion/collision_checker.h"
 #include "motion/motion.h"
 #include "objects/class_table.h"
@@ -60,7 +61,7 @@ struct Config {
   detection::DetectionConfig detection;
   slam::SlamConfig slam;
   RateConfig rates;
-  MountConfig mount;
+  lidar::MountConfig mount;
   StandstillConfig standstill;
   BodyPoseConfig body_pose;
   motion::MotionConfig motion;

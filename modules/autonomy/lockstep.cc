@@ -52,7 +52,7 @@ void Lockstep::ingest(lidar::Frame frame, LockstepObserver& observer, LockstepRe
   observer.on_scan(result.scans.back(), estimate);
   if (estimate.status == odometry::OdometryStatus::refused) return;
 
-  accumulate_motion(estimate);
+  motion_log_.add(estimate.stamp, estimate.T_odom_lidar, estimate.covariance);
   if (!segmentation_schedule_.due(scan->stamp)) return;
   start_segmentation(scan, estimate);
   ++result.labelled_scans;
@@ -60,13 +60,6 @@ void Lockstep::ingest(lidar::Frame frame, LockstepObserver& observer, LockstepRe
   start_cycle(estimate.stamp);
   ++result.slam_cycles;
   finish_cycles(kMostPendingCycles, observer);
-}
-
-void Lockstep::accumulate_motion(const odometry::OdometryEstimate& estimate) {
-  const SE3 T_last_now = T_odom_last_.inverse() * estimate.T_odom_lidar;
-  const Matrix6d carry = core::se3_adjoint(T_last_now.inverse());
-  motion_covariance_ = carry * motion_covariance_ * carry.transpose() + estimate.covariance;
-  T_odom_last_ = estimate.T_odom_lidar;
 }
 
 void Lockstep::start_segmentation(const std::shared_ptr<const lidar::Scan>& scan,
@@ -93,9 +86,8 @@ void Lockstep::start_cycle(Time now) {
     }
     return timings_.time("detection", [&] { return stages.detection.detect(scans); });
   });
-  pending_.push_back({{window.back().stamp, window.back().T_odom_lidar, motion_covariance_, {}},
+  pending_.push_back({{window.back().stamp, window.back().T_odom_lidar, motion_log_.take(now), {}},
                       std::move(detections)});
-  motion_covariance_.setZero();
 }
 
 void Lockstep::finish_cycles(std::size_t most_pending, LockstepObserver& observer) {

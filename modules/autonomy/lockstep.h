@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "autonomy/config.h"
+#include "autonomy/pipeline.h"
 #include "autonomy/schedule.h"
 #include "autonomy/worker_pool.h"
 #include "core/timings.h"
@@ -77,7 +78,6 @@ class Lockstep {
   };
 
   void ingest(lidar::Frame frame, LockstepObserver& observer, LockstepResult& result);
-  void accumulate_motion(const odometry::OdometryEstimate& estimate);
   void start_segmentation(const std::shared_ptr<const lidar::Scan>& scan,
                           odometry::OdometryEstimate& estimate);
   void start_cycle(Time now);
@@ -89,8 +89,7 @@ class Lockstep {
   slam::Slam slam_;
   Schedule segmentation_schedule_;
   Schedule slam_schedule_;
-  Matrix6d motion_covariance_ = Matrix6d::Zero();  // of the motion since the last cycle
-  SE3 T_odom_last_ = SE3::Identity();
+  MotionLog motion_log_;
   std::deque<LabelledFuture> window_;
   std::deque<Cycle> pending_;
   WorkerPool<Stages> pool_;  // last: its threads use what stands above

@@ -35,10 +35,6 @@ double mean_absolute(std::span<const double> values) {
   return mean_of(values, [](double v) { return std::abs(v); });
 }
 
-double root_mean_square(std::span<const double> values) {
-  return std::sqrt(mean_of(values, [](double v) { return v * v; }));
-}
-
 double percentile(std::span<const double> values, double ratio) {
   if (values.empty()) return kNaN;
   std::vector<double> sorted(values.begin(), values.end());

@@ -9,7 +9,6 @@ namespace saker::core {
 [[nodiscard]] double standard_deviation(
     std::span<const double> values);  ///< over n − 1; NaN below two
 [[nodiscard]] double mean_absolute(std::span<const double> values);
-[[nodiscard]] double root_mean_square(std::span<const double> values);
 
 /// Linear between the order statistics: percentile(v, 0.5) is the median. \param ratio 0 … 1
 [[nodiscard]] double percentile(std::span<const double> values, double ratio);

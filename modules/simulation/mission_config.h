@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar/mount.h"
 #include "simulation/flight_controller.h"
 #include "simulation/instruments.h"
 #include "simulation/scanner.h"
@@ -55,22 +56,6 @@ struct ScenarioEvent {
   }
 };
 
-/// The place of the lidar on the body, as the executive's `mount` says it.
-struct LidarMountConfig {
-  std::vector<double> position_m = {0, 0, 0.1};
-  std::vector<double> rotation_deg = {0, 0, 0};
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v.field("position_m", position_m, {-5, 5}, "m", "of the lidar's origin in body: x, y, z");
-    v.field("rotation_deg", rotation_deg, {-180, 180}, "°",
-            "roll, pitch, yaw of the lidar in body: about z, then y, then x");
-  }
-};
-
-/// Throws Error when there are not three numbers each.
-[[nodiscard]] SE3 lidar_mount(const LidarMountConfig& config);
-
 /// The street with its car park, and what is in it.
 struct MissionSiteConfig {
   double street_m = 80;
@@ -105,7 +90,7 @@ struct MissionConfig {
   WindConfig wind;
   CaptureConfig capture;
   double latency_s = 0.002;
-  LidarMountConfig mount;
+  lidar::MountConfig mount;
   ImuConfig imu;
   ReceiverConfig receiver;
   AirframeConfig airframe;

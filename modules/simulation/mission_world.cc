@@ -163,19 +163,6 @@ std::vector<std::size_t> add_inserted(World& world, const std::vector<ScenarioEv
 
 }  // namespace
 
-SE3 lidar_mount(const LidarMountConfig& config) {
-  if (config.position_m.size() != 3 || config.rotation_deg.size() != 3)
-    throw Error("mission.mount: position_m and rotation_deg, expected three numbers each");
-  const auto turn = [&](int axis) {
-    const double angle = config.rotation_deg[static_cast<std::size_t>(axis)];
-    return Eigen::AngleAxisd(angle * std::numbers::pi / 180, Eigen::Vector3d::Unit(axis));
-  };
-  SE3 T = SE3::Identity();
-  T.linear() = (turn(2) * turn(1) * turn(0)).toRotationMatrix();
-  T.translation() = Eigen::Map<const Eigen::Vector3d>(config.position_m.data());
-  return T;
-}
-
 MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed) {
   const MissionConfig c = core::checked(config, "mission");
   const core::Rng base(seed);

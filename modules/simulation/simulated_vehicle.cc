@@ -34,7 +34,7 @@ SimulatedVehicle::SimulatedVehicle(const MissionConfig& config, std::uint64_t se
     : config_(core::checked(config, "mission")),
       site_(build_mission_world(config_, seed)),
       caster_(site_.world()),
-      T_body_lidar_(lidar_mount(config_.mount)),
+      T_body_lidar_(lidar::mount_pose(config_.mount)),
       body_(config_.airframe, site_.T_sim_world),
       wind_(config_.wind, core::Rng(seed).fork(31)),
       barometer_(config_.barometer, core::Rng(seed).fork(32)),

@@ -151,12 +151,5 @@ TEST(MissionWorld, TheFenceHoldsAllTargets) {
   }
 }
 
-TEST(LidarMount, TurnsAboutZThenYThenX) {
-  const SE3 T = lidar_mount({{1, 2, 3}, {90, 0, 90}});
-  EXPECT_LT((T * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);
-  EXPECT_LT((T * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(2, 2, 3)).norm(), 1e-12);
-  EXPECT_THROW((void)lidar_mount({{1, 2}, {0, 0, 0}}), Error);
-}
-
 }  // namespace
 }  // namespace saker::simulation

@@ -16,8 +16,7 @@ namespace {
 constexpr Time kRowPeriod = kNanosecondsPerSecond / 20;
 
 /// The executive's configuration as far as the site and the vehicle give it.
-std::string site_yaml(const simulation::MissionFence& fence,
-                      const simulation::LidarMountConfig& mount) {
+std::string site_yaml(const simulation::MissionFence& fence, const lidar::MountConfig& mount) {
   using core::value_text;
   return fmt::format(
       "# What the executive is told of this site and this vehicle.\n"

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "objects/class_table.h"
+#include "uncertainty/view.h"
+
+/// What a measurement of an object is worth, by where it is seen from — reads a model file that
+/// `saker characterise fit` made from flights; makes the confidence of its class, the bias and the
+/// covariance of its model, for SLAM (noise of what was measured) and for active mapping (what a
+/// viewpoint will tell).
+///
+/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: about a microsecond a prediction.
+namespace saker::uncertainty {
+
+/// What to expect of a measurement of one object from one view.
+struct Prediction {
+  double confidence = NAN;     ///< f^s: mean probability of its class over the points in the model
+  Eigen::VectorXd bias;        ///< measured − true, as Sample::error: 4 or 2
+  Eigen::MatrixXd covariance;  ///< f^g: about the bias, same order: 4×4 or 2×2; positive definite
+  bool extrapolated = false;   ///< outside of what was flown: the nearest interval's values
+  int cell = -1;               ///< the interval of range and angle. What is measured of one object
+                               ///< from one cell shares its error: together it counts once
+};
+
+/// The fitted models of all classes, for one sensor. A value.
+class Model {
+ public:
+  /// Throws Error on a file that is missing, cut, of another version, or whose classes or numbers
+  /// are not valid.
+  [[nodiscard]] static Model load(const std::filesystem::path& file,
+                                  const objects::ClassTable& table);
+
+  [[nodiscard]] bool knows(objects::ClassId id) const;
+
+  /// Requires knows(id) and a finite range and angle; unknown elevation and reflectivity are
+  /// averaged over.
+  [[nodiscard]] Prediction predict(objects::ClassId id, const View& view) const;
+
+  /// What all views of one object have in common (its shape is no box), in the order of
+  /// Prediction::covariance: no number of cells takes it away. After views from cells C the error's
+  /// covariance is (Σ_C covariance⁻¹)⁻¹ + common.
+  [[nodiscard]] const Eigen::MatrixXd& common_covariance(objects::ClassId id) const;
+};
+
+}  // namespace saker::uncertainty

@@ -1,0 +1,27 @@
+#include "lidar/mount.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace saker::lidar {
+namespace {
+
+TEST(Mount, TurnsByYaw) {
+  const SE3 T = mount_pose({{1, 2, 3}, {0, 0, 90}});
+  EXPECT_TRUE((T * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 3, 3)));
+}
+
+TEST(Mount, TurnsAboutZThenYThenX) {
+  const SE3 T = mount_pose({{1, 2, 3}, {90, 0, 90}});
+  EXPECT_LT((T * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);
+  EXPECT_LT((T * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(2, 2, 3)).norm(), 1e-12);
+}
+
+TEST(Mount, TakesThreeNumbersEach) {
+  EXPECT_THROW((void)mount_pose({{1, 2}, {0, 0, 0}}), Error);
+  EXPECT_THROW((void)mount_pose({{1, 2, 3}, {0}}), Error);
+}
+
+}  // namespace
+}  // namespace saker::lidar
