@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "objects/measurement.h"
 
 namespace saker::objects {
 namespace {
@@ -32,6 +34,20 @@ Document standard_deviations(const MapObject& object) {
   return {{"root", array(sd.segment<3>(0))},
           {"axis", array(sd.segment<2>(3))},
           {"radius", rounded(sd[5])}};
+}
+
+/// Upper triangle of the planar part, row by row.
+Document correlations(const MapObject& object) {
+  const std::vector<int> rows = planar_rows(object.model);
+  const Eigen::MatrixXd P = object.covariance(rows, rows);
+  Document list = Document::array();
+  for (Eigen::Index i = 0; i < P.rows(); ++i) {
+    for (Eigen::Index j = i + 1; j < P.cols(); ++j) {
+      const double scale = std::sqrt(P(i, i) * P(j, j));
+      list.push_back(rounded(scale > 0 ? std::clamp(P(i, j) / scale, -1.0, 1.0) : 0));
+    }
+  }
+  return list;
 }
 
 void add_model(Document& entry, const Cuboid& cuboid) {
@@ -62,6 +78,7 @@ Document object_document(const MapObject& object, const ClassTable& table) {
   std::visit([&](const auto& model) { add_model(entry, model); }, object.model);
   if (object.covariance.size() > 0 && object.covariance.allFinite()) {
     entry["sd"] = standard_deviations(object);
+    entry["correlation"] = correlations(object);
   }
   if (object.points >= 0) entry["points"] = object.points;
   return entry;
@@ -166,6 +183,21 @@ Eigen::MatrixXd covariance_of(const Node& sd, Shape shape) {
   return values.cwiseAbs2().asDiagonal();
 }
 
+void add_correlations(const Node& list, const Model& model, Eigen::MatrixXd& covariance) {
+  const std::vector<int> rows = planar_rows(model);
+  const std::vector<Node> values = list.elements();
+  const std::size_t pairs = rows.size() * (rows.size() - 1) / 2;
+  if (values.size() != pairs) list.fail(fmt::format("{} numbers", pairs));
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = i + 1; j < rows.size(); ++j) {
+      const double sd_sd = std::sqrt(covariance(rows[i], rows[i]) * covariance(rows[j], rows[j]));
+      covariance(rows[i], rows[j]) = values[next++].number(-1, 1) * sd_sd;
+      covariance(rows[j], rows[i]) = covariance(rows[i], rows[j]);
+    }
+  }
+}
+
 /// What the file does not say is spread evenly over the other classes.
 std::vector<double> spread(double probability, ClassId id, const ClassTable& table) {
   const auto count = static_cast<std::size_t>(table.size());
@@ -195,6 +227,8 @@ MapObject object_of(const Node& entry, const ClassTable& table) {
     object.model = cylinder_of(entry);
   }
   if (entry.has("sd")) object.covariance = covariance_of(entry.at("sd"), shape);
+  if (entry.has("sd") && entry.has("correlation"))
+    add_correlations(entry.at("correlation"), object.model, object.covariance);
   if (entry.has("points")) object.points = entry.at("points").integer();
   return object;
 }

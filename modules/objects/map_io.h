@@ -10,12 +10,13 @@
 /// same.
 ///
 /// JSON: {"frame", "objects": [{"id", "class", "probability", "observations", "position",
-/// "rotation" [qx, qy, qz, qw], "size" | "root", "axis", "radius", "height", "sd", "points"}],
-/// "ground": [{"normal", "point", "radius"}]}; metres, in the map's frame. `sd` (radians and
-/// metres, in the object's own frame) is there where a covariance was computed, `points` where a
-/// simulator says what it hit. Numbers are written with six decimals, so that both forms of a map
-/// agree. Every error of reading is an Error that names file, field, what was found and what was
-/// expected.
+/// "rotation" [qx, qy, qz, qw], "size" | "root", "axis", "radius", "height", "sd", "correlation",
+/// "points"}], "ground": [{"normal", "point", "radius"}]}; metres, in the map's frame. `sd`
+/// (radians and metres, in the object's own frame) is there where a covariance was computed, and
+/// with it `correlation` between x, y, length and width of a cuboid ([xy, xl, xw, yl, yw, lw]) or x
+/// and y of a cylinder's root ([xy]); `points` where a simulator says what it hit. Numbers are
+/// written with six decimals, so that both forms of a map agree. Every error of reading is an Error
+/// that names file, field, what was found and what was expected.
 namespace saker::objects {
 
 [[nodiscard]] std::string to_json(const ObjectMap& map, const ClassTable& table);

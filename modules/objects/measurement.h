@@ -18,8 +18,17 @@ struct Measurement {
                                ///< 6×6 [root, axis in its tangent plane, radius] in the lidar frame
   double front_log_odds = 0;  ///< > 0: the model's x axis points to the front (cuboids)
   int points = 0;             ///< that the model was fitted to
+  int view_cell = -1;         ///< interval of range and angle in which the error is shared: all
+                              ///< windows from one together count once; −1: counts by itself
   bool moving = false;        ///< seen to move within the window; kept out of the map
 };
+
+/// Where a covariance holds what an object covers of the ground: [x, y, length, width] of a cuboid,
+/// [x, y] of a cylinder's root.
+[[nodiscard]] inline std::vector<int> planar_rows(const Model& model) {
+  if (std::holds_alternative<Cuboid>(model)) return {3, 4, 6, 7};
+  return {0, 1};
+}
 
 /// Everything that was measured from one window of scans.
 struct Detections {

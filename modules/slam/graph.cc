@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "slam/factors.h"
 
@@ -100,20 +101,34 @@ class Graph {
     ceres::Manifold* manifold = &cylinder_manifold_;
     if (is_cuboid(landmark.model)) manifold = &cuboid_manifold_;
     problem_.AddParameterBlock(parameters, parameter_count(landmark.model), manifold);
-    for (const Observation& observation : landmark.observations) {
+    const std::vector<double> weights = observation_weights(landmark);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const Observation& observation = landmark.observations[i];
       const int k = observation.keyframe - keyframes.front().serial;
       if (k < 0) continue;
-      const Gaussian& measured = observation.measured;
-      problem_.AddResidualBlock(
-          object_factor(measured.model, measured.covariance, shorter_weight_).release(), &loss_,
-          pose(static_cast<std::size_t>(k)), parameters);
+      problem_.AddResidualBlock(factor_of(observation).release(), weighted_loss(weights[i]),
+                                pose(static_cast<std::size_t>(k)), parameters);
     }
+  }
+
+  /// Of a cell, what a hidden end takes from the length is in its bias already.
+  [[nodiscard]] std::unique_ptr<ceres::CostFunction> factor_of(const Observation& o) const {
+    return object_factor(o.measured.model, o.measured.covariance, o.cell < 0 ? shorter_weight_ : 1);
+  }
+
+  /// What is an outlier stays one, however many windows of its cell it shares the weight with.
+  ceres::LossFunction* weighted_loss(double weight) {
+    if (weight == 1) return &loss_;
+    weighted_losses_.push_back(
+        std::make_unique<ceres::ScaledLoss>(&loss_, weight, ceres::DO_NOT_TAKE_OWNERSHIP));
+    return weighted_losses_.back().get();
   }
 
   PoseManifold pose_manifold_;
   CuboidManifold cuboid_manifold_;
   CylinderManifold cylinder_manifold_;
   ceres::CauchyLoss loss_;
+  std::vector<std::unique_ptr<ceres::ScaledLoss>> weighted_losses_;
   double shorter_weight_;
   std::vector<double> parameters_;
   std::vector<std::size_t> offsets_;
@@ -138,34 +153,44 @@ struct NormalEquations {
   Eigen::VectorXd gradient;
 };
 
-void add_observation(const Model& model, const Gaussian& measured, double robust_scale,
+/// A measurement in the world frame, and what it weighs.
+struct Weighted {
+  Gaussian measured;
+  double weight = 1;
+};
+
+void add_observation(const Model& model, const Weighted& observation, double robust_scale,
                      NormalEquations& sum) {
+  const Gaussian& measured = observation.measured;
   const Eigen::VectorXd error = difference(measured.model, model);
   const Eigen::MatrixXd information =
       measured.covariance.llt().solve(Eigen::MatrixXd::Identity(error.size(), error.size()));
   const double squared = error.dot(information * error);
-  const double weight = 1 / (1 + squared / (robust_scale * robust_scale));
+  const double weight = observation.weight / (1 + squared / (robust_scale * robust_scale));
   sum.information += weight * information;
   sum.gradient += weight * information * error;
 }
 
-double robust_cost(const Model& model, std::span<const Gaussian> all, double robust_scale) {
+double robust_cost(const Model& model, std::span<const Weighted> all, double robust_scale) {
   double cost = 0;
-  for (const Gaussian& measured : all) {
+  for (const auto& [measured, weight] : all) {
     const Eigen::VectorXd error = difference(measured.model, model);
     const double squared = error.dot(measured.covariance.llt().solve(error));
-    cost += std::log1p(squared / (robust_scale * robust_scale));
+    cost += weight * std::log1p(squared / (robust_scale * robust_scale));
   }
   return cost;
 }
 
 /// All that was measured of a landmark, in the world frame by the estimated poses.
-std::vector<Gaussian> all_in_world(const Landmark& landmark, const Trajectory& trajectory) {
-  std::vector<Gaussian> all;
-  for (const Observation& observation : landmark.observations) {
+std::vector<Weighted> all_in_world(const Landmark& landmark, const Trajectory& trajectory) {
+  const std::vector<double> weights = observation_weights(landmark);
+  std::vector<Weighted> all;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const Observation& observation = landmark.observations[i];
     const Keyframe* keyframe = trajectory.find(observation.keyframe);
     if (keyframe == nullptr) continue;
-    all.push_back(transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured));
+    all.push_back(
+        {transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured), weights[i]});
   }
   return all;
 }
@@ -196,9 +221,9 @@ SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* co
 
 void restart_if_better(Landmark& landmark, const Trajectory& trajectory,
                        const GraphConfig& config) {
-  const std::vector<Gaussian> all = all_in_world(landmark, trajectory);
+  const std::vector<Weighted> all = all_in_world(landmark, trajectory);
   if (all.size() < 2) return;
-  Model newest = all.back().model;
+  Model newest = all.back().measured.model;
   if (auto* cylinder = std::get_if<objects::Cylinder>(&newest)) {
     cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
   }
@@ -210,12 +235,12 @@ Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory,
                        const GraphConfig& config) {
   restart_if_better(landmark, trajectory, config);
   const Eigen::Index size = is_cuboid(landmark.model) ? kCuboidTangent : kCylinderTangent;
-  const std::vector<Gaussian> all = all_in_world(landmark, trajectory);
+  const std::vector<Weighted> all = all_in_world(landmark, trajectory);
   NormalEquations sum;
   for (int step = 0; step < kRefineSteps; ++step) {
     sum = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-    for (const Gaussian& measured : all) {
-      add_observation(landmark.model, measured, config.robust_scale, sum);
+    for (const Weighted& observation : all) {
+      add_observation(landmark.model, observation, config.robust_scale, sum);
     }
     const auto solver = sum.information.llt();
     if (solver.info() != Eigen::Success) return {};

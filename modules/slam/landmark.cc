@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace saker::slam {
 namespace {
@@ -43,14 +45,27 @@ void fuse_front(Landmark& landmark, const Eigen::Vector2d& front) {
   landmark.front = (landmark.front + front).cwiseMax(-kMostFront).cwiseMin(kMostFront);
 }
 
-/// Observations stay in the order of keyframes, one a keyframe.
+/// Two observations from one keyframe and one cell. Without a cell their errors are independent;
+/// windows from one cell share theirs, so that their mean is no better than one of them.
+void join(Observation& a, const Observation& b) {
+  const int windows = a.windows + b.windows;
+  if (a.cell < 0) {
+    a.measured = fused(a.measured, b.measured);
+  } else {
+    a.measured = fused({a.measured.model, a.measured.covariance / a.windows},
+                       {b.measured.model, b.measured.covariance / b.windows});
+    a.measured.covariance *= windows;
+  }
+  a.windows = windows;
+}
+
+/// Observations stay in the order of keyframes and cells, one each.
 void remember(Landmark& landmark, const Observation& observation) {
+  const auto key = [](const Observation& o) { return std::pair(o.keyframe, o.cell); };
   auto& all = landmark.observations;
-  const auto at =
-      std::lower_bound(all.begin(), all.end(), observation.keyframe,
-                       [](const Observation& o, int serial) { return o.keyframe < serial; });
-  if (at != all.end() && at->keyframe == observation.keyframe) {
-    at->measured = fused(at->measured, observation.measured);
+  const auto at = std::ranges::lower_bound(all, key(observation), {}, key);
+  if (at != all.end() && key(*at) == key(observation)) {
+    join(*at, observation);
   } else {
     all.insert(at, observation);
   }
@@ -126,7 +141,8 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   fuse_front(landmark, turned(Eigen::Vector2d(front, 0), turn));
   fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
   landmark.log_odds += evidence(candidate.shape_probability, config);
-  remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn)});
+  remember(landmark,
+           {keyframe, turned_by(candidate.in_keyframe, turn), candidate.measurement->view_cell});
   if (is_cuboid(landmark.model)) {
     landmark.length_sd = std::min(landmark.length_sd, length_sd(*candidate.measurement));
   }
@@ -148,8 +164,9 @@ void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
 
 void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config) {
   const int turn = turn_between(other.model, landmark.model, config);
-  for (const Observation& observation : other.observations) {
-    remember(landmark, {observation.keyframe, turned_by(observation.measured, turn)});
+  for (Observation observation : other.observations) {
+    observation.measured = turned_by(observation.measured, turn);
+    remember(landmark, observation);
   }
   fuse_front(landmark, turned(other.front, turn));
   fuse_class(landmark, other.class_log);
@@ -169,6 +186,16 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
 void forget(Landmark& landmark, int serial) {
   std::erase_if(landmark.observations,
                 [serial](const Observation& o) { return o.keyframe < serial; });
+}
+
+std::vector<double> observation_weights(const Landmark& landmark) {
+  std::map<int, int> windows;
+  for (const Observation& o : landmark.observations) windows[o.cell] += o.windows;
+  std::vector<double> weights;
+  for (const Observation& o : landmark.observations) {
+    weights.push_back(o.cell < 0 ? 1 : static_cast<double>(o.windows) / windows[o.cell]);
+  }
+  return weights;
 }
 
 std::vector<double> class_probability(const Landmark& landmark) {

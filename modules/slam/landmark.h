@@ -83,10 +83,13 @@ struct Candidate {
   double shape_probability = 0;  ///< of all classes of its shape together
 };
 
-/// What one keyframe says about one object; several measurements from one keyframe are fused.
+/// What one keyframe says about one object from one view cell; several measurements are fused.
 struct Observation {
   int keyframe = 0;   ///< serial
-  Gaussian measured;  ///< in the keyframe's lidar frame, cuboids named as the landmark's
+  Gaussian measured;  ///< in the keyframe's lidar frame, cuboids named as the landmark's; of a
+                      ///< cell: the windows' mean, as uncertain as one of them
+  int cell = -1;      ///< Measurement::view_cell
+  int windows = 1;    ///< that were measured
 };
 
 /// Where a cuboid was measured in one window: its bottom, in the world frame as it was estimated
@@ -138,6 +141,10 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
 
 /// Forgets observations from keyframes before `serial`.
 void forget(Landmark& landmark, int serial);
+
+/// What each observation weighs: all windows from one view cell share their error and weigh as one
+/// together, wherever their keyframes are; without a cell every observation weighs as one.
+[[nodiscard]] std::vector<double> observation_weights(const Landmark& landmark);
 
 [[nodiscard]] std::vector<double> class_probability(const Landmark& landmark);
 

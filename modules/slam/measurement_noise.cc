@@ -24,14 +24,17 @@ Vector9d roof() {
 
 }  // namespace
 
-Gaussian with_common_errors(const Gaussian& measured, const MeasurementNoiseConfig& config) {
-  Gaussian result{measured.model, config.covariance_scale * measured.covariance};
+Gaussian with_common_errors(const Gaussian& measured, const MeasurementNoiseConfig& config,
+                            bool fitted) {
+  Gaussian result = measured;
+  if (!fitted) result.covariance *= config.covariance_scale;
   if (is_cuboid(measured.model)) {
     const Vector9d J = config.roof_m * roof();
     result.covariance += J * J.transpose();
   } else {
     const double lean = config.lean_deg * std::numbers::pi / 180;
-    const auto J = (lean * lean_of(std::get<objects::Cylinder>(measured.model))).eval();
+    auto J = (lean * lean_of(std::get<objects::Cylinder>(measured.model))).eval();
+    if (fitted) J.topRows<3>().setZero();
     result.covariance += J * J.transpose();
   }
   return result;

@@ -30,7 +30,11 @@ struct MeasurementNoiseConfig {
 ///
 /// A cylinder's axis turns about the middle of the part that was seen, so that its root moves with
 /// it. A vehicle's height takes half of itself along to the centre; the bottom stays.
+///
+/// \param fitted the covariance is that of a fitted model, whose windows share their view cell:
+/// then nothing is scaled, and an axis leans without its root, whose whole error the model knows.
 [[nodiscard]] Gaussian with_common_errors(const Gaussian& measured,
-                                          const MeasurementNoiseConfig& config);
+                                          const MeasurementNoiseConfig& config,
+                                          bool fitted = false);
 
 }  // namespace saker::slam

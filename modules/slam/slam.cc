@@ -73,8 +73,8 @@ std::vector<Candidate> Slam::accepted(const objects::Detections& detections,
       ++report.refused;
       continue;
     }
-    const Gaussian in_lidar =
-        with_common_errors({measurement.model, measurement.covariance}, config_.noise);
+    const Gaussian in_lidar = with_common_errors({measurement.model, measurement.covariance},
+                                                 config_.noise, measurement.view_cell >= 0);
     Candidate candidate;
     candidate.measurement = &measurement;
     candidate.shape_probability = shape_probability(measurement, table_);

@@ -19,6 +19,7 @@ ObjectMap some_map() {
   car.model = Cuboid{core::se3_exp((Vector6d() << 0.01, -0.02, 2.2, 5, 2, 0.75).finished()),
                      {4.4, 1.8, 1.5}};
   car.covariance = Matrix9d(0.01 * Matrix9d::Identity());
+  car.covariance(3, 6) = car.covariance(6, 3) = -0.0032;
   MapObject pole;
   pole.id = 8;
   pole.class_id = 3;
@@ -65,6 +66,21 @@ TEST(MapIo, BothFormsGiveTheSameMapBack) {
     EXPECT_EQ(map->objects[1].class_id, 3);
     EXPECT_EQ(map->objects[1].covariance.size(), 0);
   }
+}
+
+TEST(MapIo, CorrelationsOfPlaceAndSizeAreKept) {
+  ObjectMap map = some_map();
+  map.objects[1].covariance = Matrix6d(0.04 * Matrix6d::Identity());
+  map.objects[1].covariance(0, 1) = map.objects[1].covariance(1, 0) = 0.01;
+  const std::string json = to_json(map, {});
+  const ObjectMap back = from_json(json, {}, "a");
+  EXPECT_NEAR(back.objects[0].covariance(3, 6), -0.0032, 1e-7);
+  EXPECT_NEAR(back.objects[0].covariance(6, 3), -0.0032, 1e-7);
+  EXPECT_EQ(back.objects[0].covariance(3, 4), 0);
+  EXPECT_NEAR(back.objects[1].covariance(1, 0), 0.01, 1e-7);
+  EXPECT_EQ(to_json(back, {}), json);
+  EXPECT_NE(refusal(replaced(json, "-0.32", "-1.32")).find("objects[0].correlation[1]"),
+            std::string::npos);
 }
 
 TEST(MapIo, FormFollowsTheEndingAndTheContent) {

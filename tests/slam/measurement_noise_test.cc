@@ -55,6 +55,15 @@ TEST(MeasurementNoise, AVehiclesBottomIsAsSureAsItWas) {
   EXPECT_NEAR(height_variance(P, 0.5), height_variance(before, 0.5) + 0.09, 1e-12);
 }
 
+TEST(MeasurementNoise, AFittedCovarianceOfTheRootStaysAsItIs) {
+  const Gaussian pole = measured(trunk(6, -2));
+  const MeasurementNoiseConfig config{.covariance_scale = 2, .lean_deg = 5, .roof_m = 0};
+  const Eigen::MatrixXd P = with_common_errors(pole, config, true).covariance;
+  EXPECT_EQ((P.topLeftCorner<3, 3>()), (pole.covariance.topLeftCorner<3, 3>()));
+  const double lean = 5 * std::numbers::pi / 180;
+  EXPECT_NEAR(P(3, 3), pole.covariance(3, 3) + lean * lean, 1e-12);
+}
+
 /// What the flights showed: every trunk seems to lean away from the robot, every vehicle is lower
 /// from afar. Neither may bend the path more than odometry does.
 TEST(MeasurementNoise, ErrorsThatDependOnTheViewDoNotTurnTheRobot) {

@@ -31,6 +31,8 @@ void add(const Json& run, TableRow& row) {
   for (const Json& object : run.at("errors")) {
     add_number(object.at("length_m"), row.errors);
     add_number(object.at("width_m"), row.errors);
+    add_number(object.value("size_nees", Json()), row.size_nees);
+    add_number(object.value("place_nees", Json()), row.place_nees);
   }
   add_number(run.at("trajectory_error_m"), row.trajectory_errors);
   add_number(run.at("flight_time_s"), row.flight_times);
@@ -77,6 +79,8 @@ Json row_json(const TableRow& row) {
           {"bias_m", number(core::mean(row.errors))},
           {"sd_m", number(core::standard_deviation(row.errors))},
           {"mae_m", number(core::mean_absolute(row.errors))},
+          {"size_nees", number(core::mean(row.size_nees))},
+          {"place_nees", number(core::mean(row.place_nees))},
           {"trajectory_error_m", number(core::mean(row.trajectory_errors))},
           {"collisions", row.collisions},
           {"min_clearance_m", number(row.min_clearance_m)},
@@ -86,18 +90,20 @@ Json row_json(const TableRow& row) {
 
 std::string table_text(const std::vector<TableRow>& rows) {
   std::string text = fmt::format(
-      "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7} {:>6} {:>6} {:>10} {:>10} {:>9} {:>7} {:>7}\n",
-      "scenario", "policy", "runs", "ok", "found", "bias m", "sd m", "MAE m", "traject. m",
-      "collisions", "clear. m", "time s", "path m");
+      "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7} {:>6} {:>6} {:>9} {:>10} {:>10} {:>10} {:>9} {:>7} "
+      "{:>7}\n",
+      "scenario", "policy", "runs", "ok", "found", "bias m", "sd m", "MAE m", "size NEES",
+      "place NEES", "traject. m", "collisions", "clear. m", "time s", "path m");
   for (const TableRow& row : rows) {
     text += fmt::format(
-        "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7.3f} {:>6.3f} {:>6.3f} {:>10.3f} {:>10} {:>9.2f} "
+        "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7.3f} {:>6.3f} {:>6.3f} {:>9.2f} {:>10.2f} {:>10.3f} "
+        "{:>10} {:>9.2f} "
         "{:>7.1f} {:>7.1f}\n",
         row.scenario, row.policy, row.runs, row.succeeded,
         fmt::format("{} of {}", row.found, row.targets), core::mean(row.errors),
         core::standard_deviation(row.errors), core::mean_absolute(row.errors),
-        core::mean(row.trajectory_errors), row.collisions, row.min_clearance_m,
-        core::mean(row.flight_times), core::mean(row.paths));
+        core::mean(row.size_nees), core::mean(row.place_nees), core::mean(row.trajectory_errors),
+        row.collisions, row.min_clearance_m, core::mean(row.flight_times), core::mean(row.paths));
   }
   return text;
 }

@@ -16,9 +16,10 @@ struct TableRow {
   int targets = 0;
   int found = 0;
   int collisions = 0;
-  std::vector<double> errors;               ///< m, length and width, mapped − true
-  std::vector<double> trajectory_errors;    ///< m, one a run
-  std::vector<double> flight_times, paths;  ///< s, m; one a run
+  std::vector<double> errors;                 ///< m, length and width, mapped − true
+  std::vector<double> size_nees, place_nees;  ///< a degree of freedom, one an object
+  std::vector<double> trajectory_errors;      ///< m, one a run
+  std::vector<double> flight_times, paths;    ///< s, m; one a run
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs
 };
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "objects/comparison.h"
+#include "objects/consistency.h"
 #include "objects/map_io.h"
 #include "saker/configuration.h"
 #include "saker/output.h"
@@ -73,6 +74,21 @@ Json number(double value) {
   return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json();
 }
 
+Json nees_json(const objects::ConsistencyFigures& nees) {
+  return {{"size", number(nees.size)},
+          {"size_objects", nees.size_objects},
+          {"place", number(nees.place)},
+          {"place_objects", nees.place_objects}};
+}
+
+void print_nees(const objects::ConsistencyFigures& nees) {
+  if (nees.size_objects == 0) return;
+  std::cout << fmt::format("  NEES a degree of freedom (1: honest)  size {:.2f} of {}", nees.size,
+                           nees.size_objects);
+  std::cout << fmt::format(", place beside its neighbours {:.2f} of {}\n", nees.place,
+                           nees.place_objects);
+}
+
 Json class_json(const objects::ClassComparison& c) {
   Json entry = {{"truth", c.truth},   {"mapped", c.mapped},     {"found", c.found},
                 {"missed", c.missed}, {"invented", c.invented}, {"duplicates", c.duplicates}};
@@ -110,14 +126,19 @@ void print_class(const objects::ClassComparison& c) {
 
 int eval(const MapOptions& options, const CommonOptions& common) {
   const objects::ClassTable table = classes(common);
-  const auto result =
-      objects::compare(objects::read_map(options.first, table),
-                       objects::read_map(options.second, table), table, options.comparison);
+  const objects::ObjectMap mapped = objects::read_map(options.first, table);
+  const objects::ObjectMap truth = objects::read_map(options.second, table);
+  const auto result = objects::compare(mapped, truth, table, options.comparison);
+  const auto consistency = objects::consistency(mapped, truth, result);
   Json document = Json::object();
   for (const objects::ClassComparison& c : result) {
     if (c.truth + c.mapped == 0 && !options.json) continue;
+    const auto nees = objects::mean_consistency(consistency, table.find(c.name));
     document[c.name] = class_json(c);
-    if (!options.json) print_class(c);
+    document[c.name]["nees"] = nees_json(nees);
+    if (options.json) continue;
+    print_class(c);
+    print_nees(nees);
   }
   if (options.json) std::cout << document.dump(1) << "\n";
   return 0;

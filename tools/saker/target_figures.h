@@ -14,8 +14,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json number(double value);
 
 /// Errors of length and width of those true objects of `targets` (ids) that were found:
-/// {"targets", "found", "bias_m", "sd_m", "mae_m", "errors": [{"id", "length_m", "width_m",
-/// "distance_m"}]}; error = mapped − true; null where there are too few.
+/// {"targets", "found", "bias_m", "sd_m", "mae_m", "size_nees", "place_nees", "errors": [{"id",
+/// "length_m", "width_m", "distance_m", "size_nees", "place_nees"}]}; error = mapped − true; NEES a
+/// degree of freedom as in objects/consistency.h; null where there are too few.
 [[nodiscard]] Json target_figures(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
                                   const std::vector<int>& targets,
                                   const objects::ClassTable& table);

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include "made_world.h"
+#include "slam/graph.h"
+
+/// Windows of one object from one view cell share their error: together they weigh as one.
+namespace saker::slam {
+namespace {
+
+using namespace made;
+
+const LandmarkConfig kConfig;
+constexpr double kVariance = 0.04;
+
+GraphConfig quadratic() {
+  GraphConfig config;
+  config.robust_scale = 1000;
+  config.shorter_weight = 1;
+  config.iterations = 50;
+  config.function_tolerance = 0;
+  return config;
+}
+
+/// Keyframes a second apart at one place, held together by odometry that is all but sure.
+Trajectory standing(int keyframes) {
+  KeyframeConfig config;
+  config.interval_s = 1;
+  config.rotation_floor_deg = 1e-4;
+  config.translation_floor_m = 1e-4;
+  Trajectory trajectory(config);
+  for (int k = 0; k < keyframes; ++k) {
+    trajectory.advance(from_seconds(k + 1), SE3::Identity(), 1e-16 * Matrix6d::Identity());
+  }
+  return trajectory;
+}
+
+struct Window {
+  int keyframe, cell;
+  double length;
+};
+
+Landmark measured(const std::vector<Window>& windows) {
+  Landmark landmark;
+  for (const Window& window : windows) {
+    objects::Measurement m;
+    m.class_probability = probability(kVehicle);
+    m.model = car(8, 0, 0, window.length);
+    m.covariance = kVariance * Matrix9d::Identity();
+    m.view_cell = window.cell;
+    const Candidate candidate{&m, {m.model, m.covariance}, m.model, 8, 0.9};
+    if (landmark.id < 0) {
+      landmark = new_landmark(0, candidate, window.keyframe, kConfig);
+    } else {
+      observe(landmark, candidate, window.keyframe, kConfig);
+    }
+  }
+  return landmark;
+}
+
+/// Five windows from cell 2 over three keyframes, mean 4.4; one from cell 7.
+std::vector<Window> two_cells() {
+  return {{0, 2, 4.2}, {0, 2, 4.6}, {1, 2, 4.1}, {2, 2, 4.3}, {2, 2, 4.8}, {2, 7, 5.0}};
+}
+
+double length(const Landmark& landmark) { return std::get<Cuboid>(landmark.model).size.x(); }
+
+TEST(ViewCell, EachCellIsWorthOneMeasurementHoweverManyWindows) {
+  Landmark landmark = measured(two_cells());
+  const Eigen::MatrixXd P = refine(landmark, standing(3), quadratic());
+  EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
+  EXPECT_NEAR(P(6, 6), kVariance / 2, 1e-6);
+  EXPECT_NEAR(P(3, 3), kVariance / 2, 1e-6);
+}
+
+TEST(ViewCell, TheGraphWeighsTheSame) {
+  Trajectory trajectory = standing(3);
+  Landmark landmark = measured(two_cells());
+  std::vector<Landmark*> landmarks = {&landmark};
+  (void)solve_graph(trajectory.keyframes(), landmarks, quadratic(), core::Budget::iterations(50));
+  EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
+  const std::vector<const Landmark*> wanted = {&landmark};
+  const CovarianceReport report = graph_covariance(trajectory, landmarks, wanted, quadratic());
+  ASSERT_TRUE(report.marginal);
+  EXPECT_NEAR(report.covariances[0](6, 6), kVariance / 2, 1e-6);
+}
+
+TEST(ViewCell, WithoutACellEveryWindowCounts) {
+  std::vector<Window> windows = two_cells();
+  for (Window& window : windows) window.cell = -1;
+  Landmark landmark = measured(windows);
+  const Eigen::MatrixXd P = refine(landmark, standing(3), quadratic());
+  EXPECT_NEAR(length(landmark), 27.0 / 6, 1e-6);
+  EXPECT_NEAR(P(6, 6), kVariance / 6, 1e-6);
+}
+
+TEST(ViewCell, AnOutlierOfACellStaysOne) {
+  std::vector<Window> windows(9, {0, 2, 4.4});
+  for (int k = 0; k < 9; ++k) windows[static_cast<std::size_t>(k)].keyframe = k;
+  windows.push_back({9, 2, 12.4});  // 40 sd of a window, 13 sd of one window in ten
+  Landmark landmark = measured(windows);
+  GraphConfig config = quadratic();
+  config.robust_scale = 3;
+  (void)refine(landmark, standing(10), config);
+  EXPECT_NEAR(length(landmark), 4.4, 0.02);
+}
+
+TEST(ViewCell, WhatWasForgottenNoLongerSharesTheWeight) {
+  Landmark landmark = measured(two_cells());
+  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.4, 0.2, 0.4, 1}));
+  forget(landmark, 2);
+  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{1, 1}));
+}
+
+TEST(ViewCell, MergedLandmarksShareTheirCells) {
+  Landmark a = measured({{0, 2, 4.4}, {1, 2, 4.4}});
+  absorb(a, measured({{1, 2, 4.6}, {1, 2, 4.6}, {2, 3, 4.4}}), kConfig);
+  ASSERT_EQ(a.observations.size(), 3U);
+  EXPECT_EQ(a.observations[1].windows, 3);
+  EXPECT_NEAR(std::get<Cuboid>(a.observations[1].measured.model).size.x(), 13.6 / 3, 1e-6);
+  EXPECT_NEAR(a.observations[1].measured.covariance(6, 6), kVariance, 1e-6);
+  EXPECT_EQ(observation_weights(a), (std::vector<double>{0.25, 0.75, 1}));
+}
+
+}  // namespace
+}  // namespace saker::slam
