@@ -15,11 +15,21 @@ double cylinder_gate_m(const Model& a, const Model& b, const DuplicateConfig& co
   return std::max(config.cylinder_distance_m, overlap);
 }
 
+/// As when a first view had the heading wrong: the centres may lie outside of each other then.
+bool stand_on_one_ground(const Model& a, const Model& b, double least_overlap,
+                         double height_gate_m) {
+  if (!is_cuboid(a) || !is_cuboid(b)) return false;
+  if (std::abs(objects::place(a).z() - objects::place(b).z()) > height_gate_m) return false;
+  return footprint_overlap(std::get<objects::Cuboid>(a), std::get<objects::Cuboid>(b)) >
+         least_overlap;
+}
+
 bool one_object(const Landmark& a, const Landmark& b, const DuplicateConfig& config) {
   AssociationConfig gates;
   gates.cuboid_gate_m = config.cuboid_distance_m;
   gates.cylinder_gate_m = cylinder_gate_m(a.model, b.model, config);
-  return std::isfinite(association_distance(a.model, b.model, true, gates));
+  return std::isfinite(association_distance(a.model, b.model, true, gates)) ||
+         stand_on_one_ground(a.model, b.model, config.cuboid_overlap, gates.height_gate_m);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "slam/model_algebra.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "slam/manifolds.h"
 
@@ -67,6 +69,33 @@ bool finite(const Cylinder& cylinder) {
   return cylinder.root.allFinite() && cylinder.axis.allFinite() &&
          std::abs(cylinder.axis.norm() - 1) < 1e-3 && std::isfinite(cylinder.height) &&
          cylinder.radius > 0 && std::isfinite(cylinder.radius);
+}
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+/// The part of a convex polygon where side · p[axis] <= limit (Sutherland and Hodgman, 1974).
+Polygon cut(const Polygon& polygon, int axis, double side, double limit) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& p = polygon[i];
+    const Eigen::Vector2d& q = polygon[(i + 1) % polygon.size()];
+    const double beyond_p = side * p[axis] - limit, beyond_q = side * q[axis] - limit;
+    if (beyond_p <= 0) kept.push_back(p);
+    if ((beyond_p <= 0) != (beyond_q <= 0)) {
+      kept.push_back(p + (q - p) * beyond_p / (beyond_p - beyond_q));
+    }
+  }
+  return kept;
+}
+
+double area(const Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& p = polygon[i];
+    const Eigen::Vector2d& q = polygon[(i + 1) % polygon.size()];
+    twice += p.x() * q.y() - q.x() * p.y();
+  }
+  return std::abs(twice) / 2;
 }
 
 }  // namespace
@@ -140,6 +169,20 @@ double elongation(const Cuboid& cuboid) {
 bool on_footprint(const Cuboid& cuboid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = cuboid.pose.inverse() * p;
   return 2 * std::abs(q.x()) <= cuboid.size.x() && 2 * std::abs(q.y()) <= cuboid.size.y();
+}
+
+double footprint_overlap(const Cuboid& a, const Cuboid& b) {
+  const SE3 T_a_b = a.pose.inverse() * b.pose;
+  Polygon shared;
+  for (const Eigen::Vector2d corner : {Eigen::Vector2d(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
+    const Eigen::Vector2d in_b = corner.cwiseProduct(b.size.head<2>()) / 2;
+    shared.push_back((T_a_b * Eigen::Vector3d(in_b.x(), in_b.y(), 0)).head<2>());
+  }
+  for (const int axis : {0, 1}) {
+    for (const double side : {-1.0, 1.0}) shared = cut(shared, axis, side, a.size[axis] / 2);
+  }
+  const double smaller = std::min(a.size.head<2>().prod(), b.size.head<2>().prod());
+  return area(shared) / smaller;
 }
 
 bool valid(const Gaussian& measured) {

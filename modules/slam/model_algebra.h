@@ -46,6 +46,9 @@ struct Gaussian {
 /// Whether p, moved along z, lies on the cuboid's bottom.
 [[nodiscard]] bool on_footprint(const objects::Cuboid& cuboid, const Eigen::Vector3d& p);
 
+/// Area that two bottoms, moved along z, have in common, as a share of the smaller one: 0 to 1.
+[[nodiscard]] double footprint_overlap(const objects::Cuboid& a, const objects::Cuboid& b);
+
 [[nodiscard]] bool is_cuboid(const Model& model);
 
 /// Finite, of positive size, with a covariance of the right form that is positive definite.

@@ -85,6 +85,12 @@ TEST(Duplicates, OverlappingVehiclesAreOneAndKeepTheOlderId) {
               0.1);  // named as the kept one
 }
 
+TEST(Duplicates, VehiclesThatCrossEachOtherAreOne) {
+  std::vector<Landmark> landmarks = {landmark_at(0, car(0, 0, 0), kVehicle),
+                                     landmark_at(1, car(0.6, 1.25, 0.6), kVehicle)};
+  EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
+}
+
 TEST(Duplicates, NeighboursAndOtherShapesStay) {
   std::vector<Landmark> landmarks = {
       landmark_at(0, car(0, 0, 0), kVehicle), landmark_at(1, car(0, 2.4, 0), kVehicle),
