@@ -174,7 +174,7 @@ bool on_footprint(const Cuboid& cuboid, const Eigen::Vector3d& p) {
 double footprint_overlap(const Cuboid& a, const Cuboid& b) {
   const SE3 T_a_b = a.pose.inverse() * b.pose;
   Polygon shared;
-  for (const Eigen::Vector2d corner : {Eigen::Vector2d(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
     const Eigen::Vector2d in_b = corner.cwiseProduct(b.size.head<2>()) / 2;
     shared.push_back((T_a_b * Eigen::Vector3d(in_b.x(), in_b.y(), 0)).head<2>());
   }
