@@ -27,8 +27,9 @@ ActiveConfig checked_config(const ActiveConfig& config) {
 
 }  // namespace
 
-std::unique_ptr<Policy> make_policy(const ActiveConfig& config, const objects::ClassTable& table,
-                                    const objects::ObjectMap& prior, InGeofence in_geofence) {
+std::unique_ptr<TargetPolicy> make_policy(const ActiveConfig& config,
+                                          const objects::ClassTable& table,
+                                          const objects::ObjectMap& prior, InGeofence in_geofence) {
   const ActiveConfig valid = checked_config(config);
   TargetList targets(valid.targets, table, prior);
   switch (valid.policy) {

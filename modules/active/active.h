@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "active/discovery_config.h"
 #include "active/targets.h"
 #include "active/tour.h"
 #include "active/viewpoint.h"
@@ -82,6 +83,7 @@ struct ActiveConfig {
   FieldOfViewConfig view;
   ViewpointConfig viewpoints;
   VisitConfig visit_policy;
+  DiscoveryConfig discovery;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -91,6 +93,7 @@ struct ActiveConfig {
     v.group("view", view, "the sensor's field of view");
     v.group("viewpoints", viewpoints, "places to look from");
     v.group("visit", visit_policy, "policy visit: every target, from several sides");
+    v.group("discovery", discovery, "where the prior map is wrong, incomplete or absent");
   }
 };
 
@@ -117,6 +120,7 @@ struct ActivePlan {
   double tour_length_m = 0;       ///< straight lines, with the way home
   std::vector<Candidate> candidates;  ///< for the goal's target
   int pending = 0, done = 0, visited = 0, unreachable = 0;
+  double seen_share = NAN;  ///< of the geofence, where it is swept
 };
 
 /// Chooses viewpoints. One object a mission; a function of the calls so far.
@@ -131,12 +135,21 @@ class Policy {
   virtual void refuse(int viewpoint_id, const std::string& reason) = 0;
 
   [[nodiscard]] virtual const std::vector<Target>& targets() const = 0;
+
+  /// Whether there is nothing to fly for, from the beginning.
+  [[nodiscard]] virtual bool idle() const { return targets().empty(); }
+};
+
+/// A policy over targets that may come and go between two decisions: discovery adds and dismisses.
+class TargetPolicy : public Policy {
+ public:
+  [[nodiscard]] virtual TargetList& target_list() = 0;
 };
 
 /// Throws Error on an invalid configuration or prior map.
-[[nodiscard]] std::unique_ptr<Policy> make_policy(const ActiveConfig& config,
-                                                  const objects::ClassTable& table,
-                                                  const objects::ObjectMap& prior,
-                                                  InGeofence in_geofence);
+[[nodiscard]] std::unique_ptr<TargetPolicy> make_policy(const ActiveConfig& config,
+                                                        const objects::ClassTable& table,
+                                                        const objects::ObjectMap& prior,
+                                                        InGeofence in_geofence);
 
 }  // namespace saker::active

@@ -62,8 +62,9 @@ struct Surroundings {
 
 /// A place to look from.
 struct Viewpoint {
-  int id = -1;         ///< target and slot: the same direction and ring have the same id
-  int target_id = -1;  ///< of the prior map's object
+  int id = -1;  ///< target and slot: the same direction and ring have the same id; below −1: a stop
+                ///< of the sweep
+  int target_id = -1;  ///< of the prior map's object; −1: none, a stop of the sweep
   Eigen::Vector3d position = Eigen::Vector3d::Constant(NAN);  ///< world, m
   double yaw = NAN;                                           ///< rad, towards the target
   double bearing = NAN;  ///< rad, world: from the target to the viewpoint

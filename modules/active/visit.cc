@@ -30,13 +30,23 @@ std::string why_none(const std::vector<Candidate>& candidates) {
 
 VisitPolicy::VisitPolicy(const ActiveConfig& config, TargetList targets, InGeofence in_geofence)
     : config_(config), targets_(std::move(targets)), in_geofence_(std::move(in_geofence)) {
+  follow_list();
+}
+
+/// Targets that came get a record; those that were dismissed leave the tour.
+void VisitPolicy::follow_list() {
+  if (revision_ == targets_.revision()) return;
+  revision_ = targets_.revision();
   const VisitConfig& visit = config_.visit_policy;
   const Sides none(config_.viewpoints.bearings, visit.dwell_s, visit.separation_deg * kRadians);
   records_.resize(targets_.size(), Record{none, {}});
+  reorder_ = true;
+  if (goal_ && targets_[goal_->target].absent) goal_.reset();
 }
 
 ActivePlan VisitPolicy::plan(const ActiveInput& input, const core::Budget& budget) {
   if (!accept(input)) return {};
+  follow_list();
   if (input.map) targets_.associate(*input.map);
   observe();
   watch_progress();

@@ -14,13 +14,14 @@ namespace saker::active {
 /// the vehicle can get there). What comes into view under way counts. Nothing is waited for without
 /// end: a viewpoint that motion planning refuses, or to which the vehicle comes no nearer, is given
 /// up; after a few of them the target is, and is tried once more when all others are closed.
-class VisitPolicy : public Policy {
+class VisitPolicy : public TargetPolicy {
  public:
   VisitPolicy(const ActiveConfig& config, TargetList targets, InGeofence in_geofence);
 
   [[nodiscard]] ActivePlan plan(const ActiveInput& input, const core::Budget& budget) override;
   void refuse(int viewpoint_id, const std::string& reason) override;
   [[nodiscard]] const std::vector<Target>& targets() const override { return targets_.all(); }
+  [[nodiscard]] TargetList& target_list() override { return targets_; }
 
  private:
   /// What was done about a target so far.
@@ -39,6 +40,7 @@ class VisitPolicy : public Policy {
   };
 
   [[nodiscard]] bool accept(const ActiveInput& input);
+  void follow_list();
   void observe();
   [[nodiscard]] bool sees(const Target& target) const;
   void watch_progress();
@@ -60,6 +62,7 @@ class VisitPolicy : public Policy {
   ActiveConfig config_;
   TargetList targets_;
   InGeofence in_geofence_;
+  int revision_ = -1;            ///< of the list, as far as it was followed
   std::vector<Record> records_;  ///< one a target
 
   std::optional<Time> last_stamp_;
