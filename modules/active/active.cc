@@ -13,9 +13,9 @@ ActiveConfig checked_config(const ActiveConfig& config) {
     throw Error("active.visit.separation_deg: " + std::to_string(visit.separation_deg) +
                 ", expected at most 180 / (sides - 1), or a side may find no room");
   }
-  if (visit.standing_s <= 2 * visit.dwell_s) {
-    throw Error("active.visit.standing_s: " + std::to_string(visit.standing_s) +
-                ", expected more than two dwells (dwell_s), or no side is ever seen");
+  if (valid.goals.standing_s <= 2 * visit.dwell_s) {
+    throw Error("active.goals.standing_s: " + std::to_string(valid.goals.standing_s) +
+                ", expected more than two dwells (active.visit.dwell_s), or no side is ever seen");
   }
   const FieldOfViewConfig& view = valid.view;
   if (view.nearest_m >= view.farthest_m) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "active/discovery_config.h"
+#include "active/pams_config.h"
 #include "active/targets.h"
 #include "active/tour.h"
 #include "active/viewpoint.h"
@@ -26,14 +27,8 @@ enum class PolicyName { visit };
 
 [[nodiscard]] inline std::vector<std::string> enum_names(PolicyName) { return {"visit"}; }
 
-/// The baseline: visits each target of the prior map.
-struct VisitConfig {
-  int sides = 2;
-  double separation_deg = 120;
-  double dwell_s = 3.0;
-  double oblique_worth_m = 10;
-  double unknown_worth_m = 5;
-  double switch_m = 5;
+/// What all policies do about viewpoints to which the vehicle does not come.
+struct GoalsConfig {
   double patience_s = 20;
   double standing_s = 8;
   double progress_m = 0.5;
@@ -42,6 +37,36 @@ struct VisitConfig {
   int most_goals = 12;
   int attempts = 2;
   bool return_home = true;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("patience_s", patience_s, {1, 600}, "s",
+            "without coming nearer or seeing something new, until a viewpoint is given up");
+    v.field("standing_s", standing_s, {1, 600}, "s",
+            "the same for a vehicle that stands: more than two dwells, for a place may lie between "
+            "two directions");
+    v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
+    v.field("refused_m", refused_m, {0, 20}, "m",
+            "around a viewpoint that was given up none is tried: it would be given up as well");
+    v.field("most_refusals", most_refusals, {1, 50}, "",
+            "viewpoints given up in flight, until the target is");
+    v.field("most_goals", most_goals, {1, 200}, "",
+            "viewpoints flown to without seeing anything new, until the target is given up: no "
+            "dithering");
+    v.field("attempts", attempts, {1, 5}, "",
+            "at a target that was seen from nowhere: the later ones when all others are closed");
+    v.field("return_home", return_home, "", "whether the tour ends where it began");
+  }
+};
+
+/// The baseline: visits each target of the prior map.
+struct VisitConfig {
+  int sides = 2;
+  double separation_deg = 120;
+  double dwell_s = 3.0;
+  double oblique_worth_m = 10;
+  double unknown_worth_m = 5;
+  double switch_m = 5;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -57,22 +82,6 @@ struct VisitConfig {
             "detour for a viewpoint that is known to be free");
     v.field("switch_m", switch_m, {0, 100}, "m",
             "a viewpoint must be better by this to replace the one that is flown to");
-    v.field("patience_s", patience_s, {1, 600}, "s",
-            "without coming nearer or seeing a side, until a viewpoint is given up");
-    v.field("standing_s", standing_s, {1, 600}, "s",
-            "the same for a vehicle that stands: more than two dwells, for a place may lie between "
-            "two directions");
-    v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
-    v.field("refused_m", refused_m, {0, 20}, "m",
-            "around a viewpoint that was given up none is tried: it would be given up as well");
-    v.field("most_refusals", most_refusals, {1, 50}, "",
-            "viewpoints given up in flight, until the target is");
-    v.field(
-        "most_goals", most_goals, {1, 200}, "",
-        "viewpoints flown to without seeing a side, until the target is given up: no dithering");
-    v.field("attempts", attempts, {1, 5}, "",
-            "at a target that was seen from no side: the later ones when all others are closed");
-    v.field("return_home", return_home, "", "whether the tour ends where it began");
   }
 };
 
@@ -82,6 +91,7 @@ struct ActiveConfig {
   TourConfig tour;
   FieldOfViewConfig view;
   ViewpointConfig viewpoints;
+  GoalsConfig goals;
   VisitConfig visit_policy;
   DiscoveryConfig discovery;
 
@@ -92,6 +102,7 @@ struct ActiveConfig {
     v.group("tour", tour, "in which order");
     v.group("view", view, "the sensor's field of view");
     v.group("viewpoints", viewpoints, "places to look from");
+    v.group("goals", goals, "viewpoints that are flown to, whatever the policy");
     v.group("visit", visit_policy, "policy visit: every target, from several sides");
     v.group("discovery", discovery, "where the prior map is wrong, incomplete or absent");
   }
@@ -112,13 +123,25 @@ enum class ActiveStatus {
   invalid,   ///< a pose that is not finite, or a stamp that is not newer: nothing changed
 };
 
+/// What was predicted of a viewpoint before it was flown to.
+struct Expectation {
+  int viewpoint_id = -1;
+  int target_id = -1;
+  int object_id = -1;          ///< of the mapped object
+  int cell = -1;               ///< of the uncertainty model, from which the target will be seen
+  double gain = NAN;           ///< nat, off the entropies of all targets that are seen from there
+  Eigen::MatrixXd covariance;  ///< after it, as uncertainty::Prediction's and with the common part
+};
+
 /// A decision, with all that led to it.
 struct ActivePlan {
   ActiveStatus status = ActiveStatus::invalid;
   std::optional<Viewpoint> goal;  ///< while flying
   std::vector<int> tour;          ///< ids of the pending targets in their order, the goal's first
   double tour_length_m = 0;       ///< straight lines, with the way home
-  std::vector<Candidate> candidates;  ///< for the goal's target
+  std::vector<Candidate> candidates;    ///< for the goal's target
+  std::optional<Expectation> expected;  ///< of the goal, where the policy has a model
+  std::vector<Expectation> flown;       ///< viewpoints that were seen from since the last decision
   int pending = 0, done = 0, visited = 0, unreachable = 0;
   double seen_share = NAN;  ///< of the geofence, where it is swept
 };

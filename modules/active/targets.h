@@ -70,8 +70,8 @@ class TargetList {
              const objects::ObjectMap& prior);
 
   /// Gives each target the mapped object of its class that it is: one to one, the most pairs in the
-  /// gate, of those the nearest. A target whose object has left the map has none again. A closed one
-  /// keeps its object, for another may not have been looked at; an unreachable one takes none.
+  /// gate, of those the nearest. A target whose object has left the map has none again. A closed
+  /// one keeps its object, for another may not have been looked at; an unreachable one takes none.
   void associate(const objects::ObjectMap& map);
 
   void close(int index, TargetStatus status, std::string reason);
