@@ -13,6 +13,9 @@
 #include "core/budget.h"
 #include "core/config.h"
 #include "core/time.h"
+#include "motion/limits.h"
+#include "uncertainty/regions.h"
+#include "uncertainty/uncertainty.h"
 
 /// Stage 6: where to look next — reads the object map (from `slam`), the occupancy block (from the
 /// collision checker) and the vehicle's pose at 1 Hz, makes the viewpoint to fly to (for `motion`
@@ -23,9 +26,11 @@
 /// the policy's. Cost: a few milliseconds a decision, a tour of 1,000 targets about a second.
 namespace saker::active {
 
-enum class PolicyName { visit };
+enum class PolicyName { visit, paper, saker };
 
-[[nodiscard]] inline std::vector<std::string> enum_names(PolicyName) { return {"visit"}; }
+[[nodiscard]] inline std::vector<std::string> enum_names(PolicyName) {
+  return {"visit", "paper", "saker"};
+}
 
 /// What all policies do about viewpoints to which the vehicle does not come.
 struct GoalsConfig {
@@ -93,6 +98,9 @@ struct ActiveConfig {
   ViewpointConfig viewpoints;
   GoalsConfig goals;
   VisitConfig visit_policy;
+  uncertainty::RegionConfig region;
+  PamsConfig paper = PamsConfig::paper();
+  PamsConfig saker = PamsConfig::saker();
   DiscoveryConfig discovery;
 
   template <class Visitor>
@@ -104,6 +112,9 @@ struct ActiveConfig {
     v.group("viewpoints", viewpoints, "places to look from");
     v.group("goals", goals, "viewpoints that are flown to, whatever the policy");
     v.group("visit", visit_policy, "policy visit: every target, from several sides");
+    v.group("region", region, "of good views, for the policies that follow");
+    v.group("paper", paper, "policy paper: PAMS as the paper has it");
+    v.group("saker", saker, "policy saker: PAMS with the price of time, drift, several at once");
     v.group("discovery", discovery, "where the prior map is wrong, incomplete or absent");
   }
 };
@@ -169,10 +180,13 @@ class TargetPolicy : public Policy {
   [[nodiscard]] virtual TargetList& target_list() = 0;
 };
 
-/// Throws Error on an invalid configuration or prior map.
-[[nodiscard]] std::unique_ptr<TargetPolicy> make_policy(const ActiveConfig& config,
-                                                        const objects::ClassTable& table,
-                                                        const objects::ObjectMap& prior,
-                                                        InGeofence in_geofence);
+/// Throws Error on an invalid configuration or prior map; for policies `paper` and `saker` also
+/// without a model, or with one that lacks a target class.
+/// \param model  what views are worth; may be null for policy `visit`.
+/// \param limits  from which flight times follow.
+[[nodiscard]] std::unique_ptr<TargetPolicy> make_policy(
+    const ActiveConfig& config, const objects::ClassTable& table, const objects::ObjectMap& prior,
+    InGeofence in_geofence, std::shared_ptr<const uncertainty::Model> model = nullptr,
+    const motion::LimitsConfig& limits = {});
 
 }  // namespace saker::active

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "uncertainty/regions.h"
 #include "uncertainty/uncertainty.h"
 
 namespace saker::active {
@@ -16,5 +17,10 @@ struct ViewModel {
   /// Whether the view lies in the region of high confidence ∩ low geometric uncertainty.
   std::function<bool(objects::ClassId, const uncertainty::View&)> in_region;
 };
+
+/// Throws Error where the model does not know a target class of the table.
+[[nodiscard]] ViewModel view_model_of(std::shared_ptr<const uncertainty::Model> model,
+                                      const uncertainty::RegionConfig& config,
+                                      const objects::ClassTable& table);
 
 }  // namespace saker::active

@@ -34,15 +34,16 @@ std::string tour_text(const PlanningReport& report, const active::ActivePlan& pl
 
 Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& active,
                    const motion::MotionConfig& motion, const objects::ClassTable& table,
-                   const objects::ObjectMap& prior, double home_height_m)
+                   const objects::ObjectMap& prior, double home_height_m,
+                   std::shared_ptr<const uncertainty::Model> model)
     : config_(core::checked(config, "planning")),
       planner_(motion),
       policy_(std::make_unique<active::Discovery>(
           active, table,
-          active::make_policy(active, table, prior,
-                              [fence = planner_.geofence()](const Eigen::Vector3d& p) {
-                                return fence.contains(p);
-                              }),
+          active::make_policy(
+              active, table, prior,
+              [fence = planner_.geofence()](const Eigen::Vector3d& p) { return fence.contains(p); },
+              std::move(model), motion.limits),
           planner_.geofence())),
       home_(0, 0, home_height_m) {}
 

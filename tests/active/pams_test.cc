@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/error.h"
 #include "core/rng.h"
 #include "made_flight.h"
 #include "made_model.h"
@@ -252,6 +253,39 @@ TEST_P(BothPolicies, LookNoMoreOnceThePoseHasDriftedTooFar) {
   EXPECT_LE(flight.flown.size(), 1U);
 }
 
+TEST_P(BothPolicies, FlyToNoMoreViewpointsOfATargetThanTheyMay) {
+  PamsConfig config = never_enough(GetParam());
+  config.most_views = 2;
+  PamsFlight flight(config, {car(20, 5)});
+  EXPECT_LT(flight.fly(600), 600);
+  EXPECT_LE(flight.goals.size(), 2U);
+  EXPECT_EQ(flight.plan.done, 1);
+}
+
+TEST_P(BothPolicies, MapATargetThatIsAddedOnTheWay) {
+  std::unique_ptr<PamsPolicy> made(static_cast<PamsPolicy*>(
+      PamsFlight::policy_for(GetParam(), {car(20, 5)}, everywhere, oblique_model()).release()));
+  TargetList& list = made->target_list();
+  Flight flight(std::move(made));
+  const std::vector<Cuboid> both = {car(20, 5), car(35, 5)};
+  flight.map(both);
+  flight.decide();
+  list.add(vehicle(1, both[1]));
+  EXPECT_LT(flight.fly(600), 600);
+  EXPECT_EQ(flight.plan.done, 2);
+}
+
+TEST_P(BothPolicies, LeaveATargetThatIsDismissed) {
+  std::unique_ptr<PamsPolicy> made(static_cast<PamsPolicy*>(
+      PamsFlight::policy_for(GetParam(), {car(20, 5)}, everywhere, oblique_model()).release()));
+  TargetList& list = made->target_list();
+  Flight flight(std::move(made));
+  flight.map({car(20, 5)});
+  ASSERT_TRUE(flight.decide().goal);
+  list.dismiss(0, "nothing there");
+  EXPECT_EQ(flight.decide().status, ActiveStatus::finished);
+}
+
 TEST(Paper, FliesNowhereElseThanToTheRegion) {
   ViewModel nowhere = oblique_model();
   nowhere.in_region = [](objects::ClassId, const uncertainty::View&) { return false; };
@@ -310,6 +344,22 @@ TEST(Saker, FliesLessWhenASecondCostsMore) {
 TEST(Saker, NeedsNoMoreTimeThanThePaper) {
   PamsFlight paper(PamsConfig::paper(), kStreet), saker(PamsConfig::saker(), kStreet);
   EXPECT_LE(saker.fly(1000), paper.fly(1000));
+}
+
+TEST(Policy, ByInformationGainIsRefusedWithoutAModelOrWithOneThatLacksATargetClass) {
+  ActiveConfig config;
+  for (const PolicyName policy : {PolicyName::paper, PolicyName::saker}) {
+    config.policy = policy;
+    EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere), Error);
+    const auto ignorant = std::make_shared<const uncertainty::Model>();
+    EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere, ignorant), Error);
+  }
+}
+
+TEST(Policy, ThatWouldNeverLookIsRefused) {
+  ActiveConfig config;
+  config.paper.enough_entropy = 0;
+  EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere), Error);
 }
 
 }  // namespace
