@@ -19,8 +19,8 @@ struct FlightOptions {
 
 int fly(const ProcessOptions& options, const FlightOptions& flight) {
   const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
-  const ExecutiveInput input{lidar::read_metadata(flight.metadata),
-                             objects::read_map(flight.prior, config.autonomy.objects)};
+  ExecutiveInput input{lidar::read_metadata(flight.metadata), {}};
+  if (!flight.prior.empty()) input.prior = objects::read_map(flight.prior, config.autonomy.objects);
   require_fit(check_machine(
       {.bus = config.bus, .lidar_ports = {input.sensor.lidar_port, input.sensor.imu_port}}));
   Bus bus(config.bus, options.robot);
@@ -45,9 +45,9 @@ int main(int argc, char** argv) {
                "map and maps them.",
        .add_options =
            [flight](CLI::App& app) {
-             app.add_option("--prior", flight->prior, "map of the targets' rough places")
-                 ->type_name("FILE")
-                 ->required();
+             app.add_option("--prior", flight->prior,
+                            "map of the targets' rough places; without one the geofence is swept")
+                 ->type_name("FILE");
              app.add_option("--meta", flight->metadata, "the sensor's metadata (JSON)")
                  ->type_name("FILE")
                  ->required();

@@ -1,10 +1,27 @@
 #include "active/active.h"
 
+#include <cmath>
+
+#include "active/pams.h"
 #include "active/visit.h"
 #include "core/error.h"
 
 namespace saker::active {
 namespace {
+
+void check_pams(const PamsConfig& pams, const GoalsConfig& goals, const std::string& name) {
+  const double prior = 2 * std::log(pams.prior_place_m) + 2 * std::log(pams.prior_size_m);
+  if (pams.enough_entropy >= prior) {
+    throw Error("active." + name + ".enough_entropy: " + std::to_string(pams.enough_entropy) +
+                ", expected less than the prior's " + std::to_string(prior) +
+                ", or nothing is ever looked at");
+  }
+  if (goals.standing_s <= 2 * pams.dwell_s) {
+    throw Error("active.goals.standing_s: " + std::to_string(goals.standing_s) +
+                ", expected more than two dwells (active." + name +
+                ".dwell_s), or no view ever counts");
+  }
+}
 
 ActiveConfig checked_config(const ActiveConfig& config) {
   const ActiveConfig valid = core::checked(config, "active");
@@ -13,29 +30,41 @@ ActiveConfig checked_config(const ActiveConfig& config) {
     throw Error("active.visit.separation_deg: " + std::to_string(visit.separation_deg) +
                 ", expected at most 180 / (sides - 1), or a side may find no room");
   }
-  if (visit.standing_s <= 2 * visit.dwell_s) {
-    throw Error("active.visit.standing_s: " + std::to_string(visit.standing_s) +
-                ", expected more than two dwells (dwell_s), or no side is ever seen");
+  if (valid.goals.standing_s <= 2 * visit.dwell_s) {
+    throw Error("active.goals.standing_s: " + std::to_string(valid.goals.standing_s) +
+                ", expected more than two dwells (active.visit.dwell_s), or no side is ever seen");
   }
   const FieldOfViewConfig& view = valid.view;
   if (view.nearest_m >= view.farthest_m) {
     throw Error("active.view.nearest_m: " + std::to_string(view.nearest_m) +
                 ", expected less than farthest_m");
   }
+  check_pams(valid.paper, valid.goals, "paper");
+  check_pams(valid.saker, valid.goals, "saker");
   return valid;
+}
+
+/// The settings of a policy by information gain; that of `visit` has none.
+const PamsConfig& pams_of(const ActiveConfig& config) {
+  return config.policy == PolicyName::paper ? config.paper : config.saker;
 }
 
 }  // namespace
 
-std::unique_ptr<Policy> make_policy(const ActiveConfig& config, const objects::ClassTable& table,
-                                    const objects::ObjectMap& prior, InGeofence in_geofence) {
+std::unique_ptr<TargetPolicy> make_policy(const ActiveConfig& config,
+                                          const objects::ClassTable& table,
+                                          const objects::ObjectMap& prior, InGeofence in_geofence,
+                                          std::shared_ptr<const uncertainty::Model> model,
+                                          const motion::LimitsConfig& limits) {
   const ActiveConfig valid = checked_config(config);
   TargetList targets(valid.targets, table, prior);
-  switch (valid.policy) {
-    case PolicyName::visit:
-      return std::make_unique<VisitPolicy>(valid, std::move(targets), std::move(in_geofence));
+  if (valid.policy == PolicyName::visit) {
+    return std::make_unique<VisitPolicy>(valid, std::move(targets), std::move(in_geofence));
   }
-  throw Error("active.policy: no such policy");
+  if (!model) throw Error("active.policy: paper and saker need an uncertainty model, found none");
+  return std::make_unique<PamsPolicy>(valid, pams_of(valid), std::move(targets),
+                                      std::move(in_geofence),
+                                      view_model_of(std::move(model), valid.region, table), limits);
 }
 
 }  // namespace saker::active

@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "active/discovery_config.h"
+#include "active/pams_config.h"
 #include "active/targets.h"
 #include "active/tour.h"
 #include "active/viewpoint.h"
 #include "core/budget.h"
 #include "core/config.h"
 #include "core/time.h"
+#include "motion/limits.h"
+#include "uncertainty/regions.h"
+#include "uncertainty/uncertainty.h"
 
 /// Stage 6: where to look next — reads the object map (from `slam`), the occupancy block (from the
 /// collision checker) and the vehicle's pose at 1 Hz, makes the viewpoint to fly to (for `motion`
@@ -21,9 +26,43 @@
 /// the policy's. Cost: a few milliseconds a decision, a tour of 1,000 targets about a second.
 namespace saker::active {
 
-enum class PolicyName { visit };
+enum class PolicyName { visit, paper, saker };
 
-[[nodiscard]] inline std::vector<std::string> enum_names(PolicyName) { return {"visit"}; }
+[[nodiscard]] inline std::vector<std::string> enum_names(PolicyName) {
+  return {"visit", "paper", "saker"};
+}
+
+/// What all policies do about viewpoints to which the vehicle does not come.
+struct GoalsConfig {
+  double patience_s = 20;
+  double standing_s = 8;
+  double progress_m = 0.5;
+  double refused_m = 3;
+  int most_refusals = 3;
+  int most_goals = 12;
+  int attempts = 2;
+  bool return_home = true;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("patience_s", patience_s, {1, 600}, "s",
+            "without coming nearer or seeing something new, until a viewpoint is given up");
+    v.field("standing_s", standing_s, {1, 600}, "s",
+            "the same for a vehicle that stands: more than two dwells, for a place may lie between "
+            "two directions");
+    v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
+    v.field("refused_m", refused_m, {0, 20}, "m",
+            "around a viewpoint that was given up none is tried: it would be given up as well");
+    v.field("most_refusals", most_refusals, {1, 50}, "",
+            "viewpoints given up in flight, until the target is");
+    v.field("most_goals", most_goals, {1, 200}, "",
+            "viewpoints flown to without seeing anything new, until the target is given up: no "
+            "dithering");
+    v.field("attempts", attempts, {1, 5}, "",
+            "at a target that was seen from nowhere: the later ones when all others are closed");
+    v.field("return_home", return_home, "", "whether the tour ends where it began");
+  }
+};
 
 /// The baseline: visits each target of the prior map.
 struct VisitConfig {
@@ -33,14 +72,6 @@ struct VisitConfig {
   double oblique_worth_m = 10;
   double unknown_worth_m = 5;
   double switch_m = 5;
-  double patience_s = 20;
-  double standing_s = 8;
-  double progress_m = 0.5;
-  double refused_m = 3;
-  int most_refusals = 3;
-  int most_goals = 12;
-  int attempts = 2;
-  bool return_home = true;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -56,22 +87,6 @@ struct VisitConfig {
             "detour for a viewpoint that is known to be free");
     v.field("switch_m", switch_m, {0, 100}, "m",
             "a viewpoint must be better by this to replace the one that is flown to");
-    v.field("patience_s", patience_s, {1, 600}, "s",
-            "without coming nearer or seeing a side, until a viewpoint is given up");
-    v.field("standing_s", standing_s, {1, 600}, "s",
-            "the same for a vehicle that stands: more than two dwells, for a place may lie between "
-            "two directions");
-    v.field("progress_m", progress_m, {0.05, 10}, "m", "that count as nearer");
-    v.field("refused_m", refused_m, {0, 20}, "m",
-            "around a viewpoint that was given up none is tried: it would be given up as well");
-    v.field("most_refusals", most_refusals, {1, 50}, "",
-            "viewpoints given up in flight, until the target is");
-    v.field(
-        "most_goals", most_goals, {1, 200}, "",
-        "viewpoints flown to without seeing a side, until the target is given up: no dithering");
-    v.field("attempts", attempts, {1, 5}, "",
-            "at a target that was seen from no side: the later ones when all others are closed");
-    v.field("return_home", return_home, "", "whether the tour ends where it began");
   }
 };
 
@@ -81,7 +96,12 @@ struct ActiveConfig {
   TourConfig tour;
   FieldOfViewConfig view;
   ViewpointConfig viewpoints;
+  GoalsConfig goals;
   VisitConfig visit_policy;
+  uncertainty::RegionConfig region;
+  PamsConfig paper = PamsConfig::paper();
+  PamsConfig saker = PamsConfig::saker();
+  DiscoveryConfig discovery;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -90,7 +110,12 @@ struct ActiveConfig {
     v.group("tour", tour, "in which order");
     v.group("view", view, "the sensor's field of view");
     v.group("viewpoints", viewpoints, "places to look from");
+    v.group("goals", goals, "viewpoints that are flown to, whatever the policy");
     v.group("visit", visit_policy, "policy visit: every target, from several sides");
+    v.group("region", region, "of good views, for the policies that follow");
+    v.group("paper", paper, "policy paper: PAMS as the paper has it");
+    v.group("saker", saker, "policy saker: PAMS with the price of time, drift, several at once");
+    v.group("discovery", discovery, "where the prior map is wrong, incomplete or absent");
   }
 };
 
@@ -109,14 +134,27 @@ enum class ActiveStatus {
   invalid,   ///< a pose that is not finite, or a stamp that is not newer: nothing changed
 };
 
+/// What was predicted of a viewpoint before it was flown to.
+struct Expectation {
+  int viewpoint_id = -1;
+  int target_id = -1;
+  int object_id = -1;          ///< of the mapped object
+  int cell = -1;               ///< of the uncertainty model, from which the target will be seen
+  double gain = NAN;           ///< nat, off the entropies of all targets that are seen from there
+  Eigen::MatrixXd covariance;  ///< after it, as uncertainty::Prediction's and with the common part
+};
+
 /// A decision, with all that led to it.
 struct ActivePlan {
   ActiveStatus status = ActiveStatus::invalid;
   std::optional<Viewpoint> goal;  ///< while flying
   std::vector<int> tour;          ///< ids of the pending targets in their order, the goal's first
   double tour_length_m = 0;       ///< straight lines, with the way home
-  std::vector<Candidate> candidates;  ///< for the goal's target
+  std::vector<Candidate> candidates;    ///< for the goal's target
+  std::optional<Expectation> expected;  ///< of the goal, where the policy has a model
+  std::vector<Expectation> flown;       ///< viewpoints that were seen from since the last decision
   int pending = 0, done = 0, visited = 0, unreachable = 0;
+  double seen_share = NAN;  ///< of the geofence, where it is swept
 };
 
 /// Chooses viewpoints. One object a mission; a function of the calls so far.
@@ -131,12 +169,24 @@ class Policy {
   virtual void refuse(int viewpoint_id, const std::string& reason) = 0;
 
   [[nodiscard]] virtual const std::vector<Target>& targets() const = 0;
+
+  /// Whether there is nothing to fly for, from the beginning.
+  [[nodiscard]] virtual bool idle() const { return targets().empty(); }
 };
 
-/// Throws Error on an invalid configuration or prior map.
-[[nodiscard]] std::unique_ptr<Policy> make_policy(const ActiveConfig& config,
-                                                  const objects::ClassTable& table,
-                                                  const objects::ObjectMap& prior,
-                                                  InGeofence in_geofence);
+/// A policy over targets that may come and go between two decisions: discovery adds and dismisses.
+class TargetPolicy : public Policy {
+ public:
+  [[nodiscard]] virtual TargetList& target_list() = 0;
+};
+
+/// Throws Error on an invalid configuration or prior map; for policies `paper` and `saker` also
+/// without a model, or with one that lacks a target class.
+/// \param model  what views are worth; may be null for policy `visit`.
+/// \param limits  from which flight times follow.
+[[nodiscard]] std::unique_ptr<TargetPolicy> make_policy(
+    const ActiveConfig& config, const objects::ClassTable& table, const objects::ObjectMap& prior,
+    InGeofence in_geofence, std::shared_ptr<const uncertainty::Model> model = nullptr,
+    const motion::LimitsConfig& limits = {});
 
 }  // namespace saker::active

@@ -13,6 +13,8 @@ namespace {
 using objects::Cuboid;
 using objects::MapObject;
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 Eigen::Vector3d default_size(const TargetsConfig& config) {
   if (config.default_size_m.size() != 3) {
     throw Error("active.targets.default_size_m: " + std::to_string(config.default_size_m.size()) +
@@ -63,6 +65,7 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
                        const objects::ObjectMap& prior)
     : config_(config) {
   for (const MapObject& object : prior.objects) {
+    next_id_ = std::max(next_id_, object.id + 1);
     if (!is_target(table, object.class_id)) continue;
     Target& target = targets_.emplace_back();
     target.id = object.id;
@@ -85,22 +88,39 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
 }
 
 double TargetList::distance(const Target& target, const MapObject& object) const {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (object.class_id != target.class_id) return kNever;
+  if (target.absent || object.class_id != target.class_id) return kNever;
+  if (target.status == TargetStatus::unreachable && !target.mapped()) return kNever;
   const Cuboid mapped = cuboid_of(object.model);
   const Eigen::Vector3d between = mapped.pose.translation() - target.prior_place;
   if (!mapped.pose.matrix().allFinite() || !mapped.size.allFinite()) return kNever;
   if (std::abs(between.z()) > config_.height_gate_m) return kNever;
-  return between.head<2>().norm();
+  const double distance = between.head<2>().norm();
+  if (distance > config_.gate_m) return kNever;
+  const bool its_own = object.id == target.object_id;
+  return its_own ? std::max(distance - config_.keep_m, 0.0) : distance;
 }
 
-void TargetList::associate(const objects::ObjectMap& map) {
+/// Of target and object in x-y; those that cannot be the same never are.
+Eigen::MatrixXd TargetList::costs(const objects::ObjectMap& map) const {
   Eigen::MatrixXd cost(size(), static_cast<Eigen::Index>(map.objects.size()));
   for (int t = 0; t < size(); ++t) {
     for (Eigen::Index o = 0; o < cost.cols(); ++o)
       cost(t, o) = distance(targets_[t], map.objects[o]);
   }
-  const std::vector<int> object_of = objects::assign(cost, config_.gate_m);
+  for (int t = 0; t < size(); ++t) {
+    if (targets_[t].status == TargetStatus::pending) continue;
+    for (Eigen::Index o = 0; o < cost.cols(); ++o) {
+      if (map.objects[o].id != targets_[t].object_id || cost(t, o) == kNever) continue;
+      cost.row(t).setConstant(kNever);
+      cost.col(o).setConstant(kNever);
+      cost(t, o) = 0;
+    }
+  }
+  return cost;
+}
+
+void TargetList::associate(const objects::ObjectMap& map) {
+  const std::vector<int> object_of = objects::assign(costs(map), config_.gate_m);
   for (int t = 0; t < size(); ++t) {
     attach(t, object_of[t] < 0 ? nullptr : &map.objects[object_of[t]]);
   }
@@ -118,6 +138,24 @@ void TargetList::attach(int index, const MapObject* object) {
 void TargetList::close(int index, TargetStatus status, std::string reason) {
   targets_[index].status = status;
   targets_[index].reason = std::move(reason);
+}
+
+int TargetList::add(const MapObject& object) {
+  Target& target = targets_.emplace_back();
+  target.id = next_id_++;
+  target.class_id = object.class_id;
+  target.discovered = true;
+  prior_extent_.push_back(prior_extent(object, config_));
+  target.prior_place = prior_extent_.back().pose.translation();
+  attach(size() - 1, &object);
+  ++revision_;
+  return size() - 1;
+}
+
+void TargetList::dismiss(int index, std::string reason) {
+  close(index, TargetStatus::visited, std::move(reason));
+  targets_[index].absent = true;
+  ++revision_;
 }
 
 int TargetList::count(TargetStatus status) const {

@@ -6,13 +6,14 @@
 #include "core/config.h"
 #include "objects/object_map.h"
 
-/// What the tour is for: the prior map's objects of target classes, each with the mapped object
-/// that it turned out to be.
+/// What the tour is for: the prior map's objects of target classes and those that discovery adds,
+/// each with the mapped object that it turned out to be.
 namespace saker::active {
 
 struct TargetsConfig {
-  double gate_m = 4.0;
+  double gate_m = 6.0;
   double height_gate_m = 3.0;
+  double keep_m = 1.5;
   double prior_margin_m = 0.5;
   int most_targets = 300;
   std::vector<double> default_size_m = {4.5, 1.9, 1.6};
@@ -20,8 +21,10 @@ struct TargetsConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("gate_m", gate_m, {0.1, 50}, "m",
-            "in x-y between prior and mapped place: three deviations of a prior of 1.3 m");
+            "in x-y between prior and mapped place: three deviations of a prior of 2 m");
     v.field("height_gate_m", height_gate_m, {0.1, 50}, "m", "the same in z: about a storey");
+    v.field("keep_m", keep_m, {0, 20}, "m",
+            "by which another object must be nearer, in sum, for targets to swap theirs");
     v.field("prior_margin_m", prior_margin_m, {0, 10}, "m",
             "kept in view around a target that is not mapped yet, for its place is rough");
     v.field("most_targets", most_targets, {1, 1000}, "",
@@ -44,30 +47,43 @@ enum class TargetStatus {
 }
 
 struct Target {
-  int id = -1;  ///< of the prior map's object
+  int id = -1;  ///< of the prior map's object; of a discovered one: follows the prior's largest
   objects::ClassId class_id = 0;
   objects::Cuboid extent;  ///< world: the mapped object's, or else the prior's with its margin
   Eigen::Vector3d prior_place = Eigen::Vector3d::Constant(NAN);  ///< world, m
   int object_id = -1;  ///< the mapped object's; −1: none yet
   TargetStatus status = TargetStatus::pending;
-  std::string reason;  ///< why it is visited with fewer sides, or unreachable
+  std::string reason;       ///< why it is visited with fewer sides, or unreachable
+  bool discovered = false;  ///< not in the prior map
+  bool absent = false;      ///< dismissed: no object is its own any more
 
   [[nodiscard]] bool mapped() const { return object_id >= 0; }
   [[nodiscard]] Eigen::Vector3d place() const { return extent.pose.translation(); }
 };
 
-/// The prior's targets in the order of their ids. Objects of other classes are passed over.
-/// Throws Error on a place that is not finite, an id that occurs twice, or too many targets.
+/// The targets in the order of their ids: the prior's, then those that were added. Objects of other
+/// classes are passed over. Throws Error on a place that is not finite, an id that occurs twice, or
+/// too many targets.
 class TargetList {
  public:
   TargetList(const TargetsConfig& config, const objects::ClassTable& table,
              const objects::ObjectMap& prior);
 
   /// Gives each target the mapped object of its class that it is: one to one, the most pairs in the
-  /// gate, of those the nearest. A target whose object has left the map has none again.
+  /// gate, of those the nearest. A target whose object has left the map has none again. A closed
+  /// one keeps its object, for another may not have been looked at; an unreachable one takes none.
   void associate(const objects::ObjectMap& map);
 
   void close(int index, TargetStatus status, std::string reason);
+
+  /// A mapped object that is in no prior map becomes a target. \return its index, the last.
+  int add(const objects::MapObject& object);
+
+  /// The prior was wrong, nothing of its own is there: closed for good as visited.
+  void dismiss(int index, std::string reason);
+
+  /// Changes with `add` and `dismiss`, which come from outside of a policy.
+  [[nodiscard]] int revision() const { return revision_; }
 
   [[nodiscard]] const std::vector<Target>& all() const { return targets_; }
   [[nodiscard]] const Target& operator[](int index) const { return targets_[index]; }
@@ -76,9 +92,12 @@ class TargetList {
 
  private:
   [[nodiscard]] double distance(const Target& target, const objects::MapObject& object) const;
+  [[nodiscard]] Eigen::MatrixXd costs(const objects::ObjectMap& map) const;
   void attach(int index, const objects::MapObject* object);
 
   TargetsConfig config_;
+  int next_id_ = 0;
+  int revision_ = 0;
   std::vector<Target> targets_;
   std::vector<objects::Cuboid> prior_extent_;
 };

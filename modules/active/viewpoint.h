@@ -62,8 +62,9 @@ struct Surroundings {
 
 /// A place to look from.
 struct Viewpoint {
-  int id = -1;         ///< target and slot: the same direction and ring have the same id
-  int target_id = -1;  ///< of the prior map's object
+  int id = -1;  ///< target and slot: the same direction and ring have the same id; below −1: a stop
+                ///< of the sweep
+  int target_id = -1;  ///< of the prior map's object; −1: none, a stop of the sweep
   Eigen::Vector3d position = Eigen::Vector3d::Constant(NAN);  ///< world, m
   double yaw = NAN;                                           ///< rad, towards the target
   double bearing = NAN;  ///< rad, world: from the target to the viewpoint
@@ -78,11 +79,22 @@ enum class Refusal {
   hidden,            ///< too little of the target is visible
   seen,              ///< too near to a side that was seen
   motion,            ///< motion planning found no way, or the vehicle came no nearer
+  enclosed,          ///< cut off from the vehicle by what is occupied
+  drift,             ///< the pose will have drifted too far since the target was first seen
+  region,            ///< outside of the region of good views, or no sample of it
 };
 
 [[nodiscard]] inline const char* to_string(Refusal refusal) {
-  constexpr const char* kNames[] = {"none",   "out of view", "outside the geofence", "occupied",
-                                    "hidden", "seen",        "no way there"};
+  constexpr const char* kNames[] = {"none",
+                                    "out of view",
+                                    "outside the geofence",
+                                    "occupied",
+                                    "hidden",
+                                    "seen",
+                                    "no way there",
+                                    "enclosed",
+                                    "too late",
+                                    "outside the region"};
   return kNames[static_cast<int>(refusal)];
 }
 

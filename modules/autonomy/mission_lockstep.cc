@@ -200,7 +200,7 @@ void MissionLockstep::supervise(Time now) {
   input.acks = std::exchange(acks_, {});
   input.planning = report_;
   input.stop = guidance_.last_stop();
-  input.has_targets = !planning_.policy().targets().empty();
+  input.has_targets = !planning_.policy().idle();
   const Mission::Output output = supervisor_.step(std::move(input));
 
   orders_ = output.orders;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "active/discovery.h"
+
 namespace saker::autonomy {
 namespace {
 
@@ -21,16 +23,28 @@ bool clear(const PlanningInput& input) {
                                                                               : true;
 }
 
+std::string tour_text(const PlanningReport& report, const active::ActivePlan& plan) {
+  std::string text = fmt::format("{} of {} targets visited, {} unreachable", report.visited,
+                                 report.targets, report.unreachable);
+  if (std::isnan(plan.seen_share)) return text;
+  return text + fmt::format("; {:.0f} % of the geofence seen", 100 * plan.seen_share);
+}
+
 }  // namespace
 
 Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& active,
                    const motion::MotionConfig& motion, const objects::ClassTable& table,
-                   const objects::ObjectMap& prior, double home_height_m)
+                   const objects::ObjectMap& prior, double home_height_m,
+                   std::shared_ptr<const uncertainty::Model> model)
     : config_(core::checked(config, "planning")),
       planner_(motion),
-      policy_(active::make_policy(
-          active, table, prior,
-          [fence = planner_.geofence()](const Eigen::Vector3d& p) { return fence.contains(p); })),
+      policy_(std::make_unique<active::Discovery>(
+          active, table,
+          active::make_policy(
+              active, table, prior,
+              [fence = planner_.geofence()](const Eigen::Vector3d& p) { return fence.contains(p); },
+              std::move(model), motion.limits),
+          planner_.geofence())),
       home_(0, 0, home_height_m) {}
 
 Planning::Output Planning::step(const PlanningInput& input, const core::Budget& budget) {
@@ -73,10 +87,9 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
   PlanningReport& report = output.report;
   count_targets(plan, report);
   if (plan.status == active::ActiveStatus::finished) {
-    report.status =
-        report.visited > 0 ? PlanningStatus::tour_complete : PlanningStatus::nothing_reachable;
-    report.text = fmt::format("{} of {} targets visited, {} unreachable", report.visited,
-                              report.targets, report.unreachable);
+    const bool in_vain = report.targets > 0 && report.visited == 0;
+    report.status = in_vain ? PlanningStatus::nothing_reachable : PlanningStatus::tour_complete;
+    report.text = tour_text(report, plan);
     return;
   }
   if (plan.status == active::ActiveStatus::invalid || !plan.goal) {

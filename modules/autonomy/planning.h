@@ -57,10 +57,12 @@ struct PlanningInput {
 
 class Planning {
  public:
-  /// Throws Error on an invalid configuration or prior map.
+  /// Throws Error on an invalid configuration or prior map, and without a model where the policy
+  /// needs one.
   Planning(const PlanningConfig& config, const active::ActiveConfig& active,
            const motion::MotionConfig& motion, const objects::ClassTable& table,
-           const objects::ObjectMap& prior, double home_height_m);
+           const objects::ObjectMap& prior, double home_height_m,
+           std::shared_ptr<const uncertainty::Model> model = nullptr);
 
   struct Output {
     PlanningReport report;

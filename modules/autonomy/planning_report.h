@@ -24,8 +24,8 @@ enum class PlanningStatus {
   flying,             ///< what is committed leads to the goal, or a proposal was made
   refused,            ///< no way this time; `text` says why
   gave_up,            ///< on one goal after too many refusals; there are others
-  tour_complete,      ///< no target is left: all visited, or some unreachable
-  nothing_reachable,  ///< no target is left, and none was visited
+  tour_complete,      ///< no target is left: all visited, or some unreachable, or none was found
+  nothing_reachable,  ///< no target is left, and of those that there are none was visited
   home_reached,
   home_unreachable,  ///< too many refusals on the way home
 };

@@ -18,7 +18,7 @@ struct SupervisorInput {
   std::vector<CommandAck> acks;      ///< since the last step
   PlanningReport planning;           ///< the newest
   GuidanceStop stop;                 ///< the last one
-  bool has_targets = false;
+  bool has_targets = false;          ///< or a geofence to sweep for them
   bool land_ordered = false;
 };
 

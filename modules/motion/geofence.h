@@ -34,6 +34,7 @@ class Geofence {
   /// The same to the upright faces alone, and to top and bottom alone.
   [[nodiscard]] double inside_polygon_m(const Eigen::Vector2d& p_world) const;
   [[nodiscard]] double inside_band_m(double z) const;
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& corners() const { return corners_; }
   [[nodiscard]] bool contains(const Eigen::Vector3d& p_world) const {
     return inside_m(p_world) >= 0;
   }

@@ -56,6 +56,22 @@ struct ScenarioEvent {
   }
 };
 
+/// What is wrong with the prior map, besides its places.
+struct PriorErrorsConfig {
+  double missing_share = 0;
+  int invented = 0;
+  int duplicates = 0;
+  int mistaken = 0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("missing_share", missing_share, {0, 1}, "", "of the targets that are not in it");
+    v.field("invented", invented, {0, 100}, "", "vehicles of it that are not there");
+    v.field("duplicates", duplicates, {0, 100}, "", "targets that are in it twice");
+    v.field("mistaken", mistaken, {0, 100}, "", "vehicles of it that are trees or poles");
+  }
+};
+
 /// The street with its car park, and what is in it.
 struct MissionSiteConfig {
   double street_m = 80;
@@ -64,6 +80,8 @@ struct MissionSiteConfig {
   int obstacles = 0;
   int moving_vehicles = 0;
   double prior_sd_m = 1.0;
+  bool no_prior = false;
+  PriorErrorsConfig prior_errors;
   double fence_margin_m = 2;
   double fence_height_m = 12;
 
@@ -72,12 +90,14 @@ struct MissionSiteConfig {
     v.field("street_m", street_m, {80, 600}, "m", "length of the world");
     v.field("parked_share", parked_share, {0, 1}, "", "of the parking places that are taken");
     v.field("targets", targets, {1, 100}, "",
-            "vehicles of the prior map: those nearest to take-off");
+            "vehicles that are to be mapped: those nearest to take-off");
     v.field("obstacles", obstacles, {0, 40}, "",
             "posts, walls and hedges, each between two targets; higher than one flies");
     v.field("moving_vehicles", moving_vehicles, {0, 20}, "", "that drive up and down the street");
     v.field("prior_sd_m", prior_sd_m, {0, 20}, "m",
             "error of the prior map's places, along x and y each");
+    v.field("no_prior", no_prior, "", "nothing is said of the targets beforehand but the fence");
+    v.group("prior_errors", prior_errors, "what else is wrong with the prior map");
     v.field("fence_margin_m", fence_margin_m, {0, 100}, "m",
             "of the geofence about targets and take-off");
     v.field("fence_height_m", fence_height_m, {1, 200}, "m", "of the geofence over the take-off");

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "simulation/collision.h"
 #include "simulation/mission_obstacles.h"
+#include "simulation/prior_errors.h"
 #include "simulation/truth.h"
 
 namespace saker::simulation {
@@ -128,6 +129,12 @@ objects::ObjectMap rough_map(const World& world, const std::vector<std::size_t>&
   return map;
 }
 
+std::vector<int> ids_of(const objects::ObjectMap& map) {
+  std::vector<int> ids;
+  for (const objects::MapObject& object : map.objects) ids.push_back(object.id);
+  return ids;
+}
+
 /// A box about the targets and the take-off, wide enough to fly around the outer ones.
 MissionFence fence_about(const objects::ObjectMap& prior, const MissionSiteConfig& site) {
   constexpr double kAround = 8;  // m: viewpoints lie about the targets
@@ -169,16 +176,22 @@ MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed
   core::Rng takeoff_rng = base.fork(21);
   core::Rng obstacle_rng = base.fork(22);
   core::Rng prior_rng = base.fork(23);
+  core::Rng error_rng = base.fork(24);
   FlightWorld flight = built(c.site, base.fork(20));
   World& world = flight.built.world;
   const SE3 T_sim_world = levelled(find_takeoff(flight, c.airframe, takeoff_rng));
   const std::vector<std::size_t> targets = choose_targets(world, T_sim_world, c.site.targets);
-  objects::ObjectMap prior =
+  const objects::ObjectMap rough =
       rough_map(world, targets, T_sim_world.inverse(), c.site.prior_sd_m, prior_rng);
   add_obstacles(flight, targets, T_sim_world.translation(), c.site.obstacles, obstacle_rng);
   std::vector<std::size_t> inserted = add_inserted(world, c.events);
-  const MissionFence fence = fence_about(prior, c.site);
-  return {std::move(flight), T_sim_world, std::move(prior), std::move(inserted), fence};
+  const MissionFence fence = fence_about(rough, c.site);
+  objects::ObjectMap prior;
+  if (!c.site.no_prior) {
+    prior = with_errors(rough, world, T_sim_world.inverse(), fence, c.site, error_rng);
+  }
+  return {std::move(flight), T_sim_world,         ids_of(rough),
+          std::move(prior),  std::move(inserted), fence};
 }
 
 void drive(const FlightWorld& flight, double t, RayCaster& caster) {

@@ -19,6 +19,7 @@ struct MissionFence {
 struct MissionWorld {
   FlightWorld flight;
   SE3 T_sim_world = SE3::Identity();
+  std::vector<int> targets;           ///< ids, in the truth, of the vehicles that are to be mapped
   objects::ObjectMap prior;           ///< in `world`: the targets, roughly; ids as in the truth
   std::vector<std::size_t> inserted;  ///< movers that events bring in, under the ground till then
   MissionFence fence;
@@ -26,6 +27,7 @@ struct MissionWorld {
   [[nodiscard]] const World& world() const { return flight.built.world; }
 };
 
+/// What is said of the site beforehand is wrong as far as the configuration says so, or empty.
 /// A function of config and seed. Throws Error where the site has no room for what is asked.
 [[nodiscard]] MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed);
 

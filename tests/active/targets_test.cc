@@ -98,6 +98,75 @@ TEST(Targets, VisitedOneIsDoneOnceItIsMapped) {
   EXPECT_EQ(targets[2].status, TargetStatus::pending);
 }
 
+TEST(Targets, ClosedOneKeepsItsObjectWhenANearerOneIsMapped) {
+  TargetList targets = targets_at({car(0, 0), car(5, 0)});
+  objects::ObjectMap map = map_of({car(2, 0)});
+  map.objects[0].id = 7;
+  targets.associate(map);
+  ASSERT_EQ(targets[0].object_id, 7);
+  targets.close(0, TargetStatus::done, "");
+  map.objects.push_back(vehicle(8, car(0, 0)));
+  targets.associate(map);
+  EXPECT_EQ(targets[0].object_id, 7);
+  EXPECT_EQ(targets[1].object_id, 8);
+}
+
+TEST(Targets, PendingOnesSwapTheirObjectsOnlyWhenThatIsClearlyBetter) {
+  TargetList targets = targets_at({car(0, 0), car(0, 3)});
+  objects::ObjectMap map = map_of({car(1, 1.4), car(1, 1.6)});
+  targets.associate(map);
+  const int first = targets[0].object_id;
+  std::swap(map.objects[0].model, map.objects[1].model);
+  targets.associate(map);
+  EXPECT_EQ(targets[0].object_id, first);
+  map = map_of({car(0, 3), car(0, 0)});
+  targets.associate(map);
+  EXPECT_EQ(targets[0].object_id, 1);
+}
+
+TEST(Targets, AddedOneIsPendingWithAnIdOfItsOwnAndItsObject) {
+  objects::ObjectMap prior;
+  prior.objects = {vehicle(7, car(0, 0)), vehicle(3, car(9, 0))};
+  TargetList targets({}, kTable, prior);
+  const int revision = targets.revision();
+  const int index = targets.add(vehicle(55, car(40, 0, 0.3)));
+  EXPECT_EQ(index, 2);
+  EXPECT_EQ(targets[index].id, 8);
+  EXPECT_EQ(targets[index].status, TargetStatus::pending);
+  EXPECT_EQ(targets[index].object_id, 55);
+  EXPECT_TRUE(targets[index].discovered);
+  EXPECT_NE(targets.revision(), revision);
+  targets.associate(map_of({car(40.2, 0, 0.3)}));
+  EXPECT_EQ(targets[index].object_id, 0);
+}
+
+TEST(Targets, UnreachableOneTakesNoObjectThatMayBeReachable) {
+  TargetList targets = targets_at({car(0, 0)});
+  targets.close(0, TargetStatus::unreachable, "in a wall");
+  targets.associate(map_of({car(3, 0)}));
+  EXPECT_FALSE(targets[0].mapped());
+}
+
+TEST(Targets, DismissedOneIsVisitedAndNeverTakesAnObject) {
+  TargetList targets = targets_at({car(0, 0), car(2, 0)});
+  targets.dismiss(0, "nothing there");
+  targets.associate(map_of({car(0, 0)}));
+  EXPECT_EQ(targets[0].status, TargetStatus::visited);
+  EXPECT_EQ(targets[0].reason, "nothing there");
+  EXPECT_FALSE(targets[0].mapped());
+  EXPECT_TRUE(targets[1].mapped());
+}
+
+TEST(Targets, OfAPriorThatIsTwoMetresOffFindTheirObjects) {
+  const std::vector<objects::Cuboid> cars = {car(0, 0), car(12, 3), car(25, -2), car(40, 1)};
+  std::vector<objects::Cuboid> rough = cars;
+  const Eigen::Vector2d off[] = {{2, 2}, {-4, 0}, {0, 4.5}, {3, -3}};
+  for (std::size_t i = 0; i < 4; ++i) rough[i].pose.translation().head<2>() += off[i];
+  TargetList targets = targets_at(rough);
+  targets.associate(map_of(cars));
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(targets[i].object_id, i);
+}
+
 TEST(Targets, PriorWithAPlaceThatIsNotFiniteIsRefusedByItsId) {
   objects::ObjectMap prior = map_of({car(0, 0), car(1, 0)});
   std::get<objects::Cuboid>(prior.objects[1].model).pose.translation().y() = NAN;

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/rng.h"
-#include "made_street.h"
+#include "made_flight.h"
 
 namespace saker::active {
 namespace {
@@ -17,50 +17,14 @@ using objects::Cuboid;
 using std::numbers::pi;
 
 const objects::ClassTable kTable;
-const core::Budget kBudget = core::Budget::iterations(1000);
 const VisitConfig kVisit;
+const GoalsConfig kGoals;
 
-bool everywhere(const Eigen::Vector3d&) { return true; }
-
-/// A vehicle that flies straight to what the policy says, a decision a second.
-struct Flight {
+/// Of policy `visit`, or of what the configuration says.
+struct Flight : made::Flight {
   explicit Flight(const std::vector<Cuboid>& cars, const InGeofence& in_geofence = everywhere,
                   const ActiveConfig& config = {})
-      : policy(make_policy(config, kTable, map_of(cars), in_geofence)) {}
-
-  void map(const std::vector<Cuboid>& cars) {
-    input.map = std::make_shared<const objects::ObjectMap>(map_of(cars));
-  }
-  void see(const occupancy::OccupancyGrid& grid) { input.grid = shared(grid); }
-
-  const ActivePlan& decide() {
-    input.stamp += kNanosecondsPerSecond;
-    input.T_world_body.translation() = body;
-    plan = policy->plan(input, kBudget);
-    if (plan.goal && (goals.empty() || goals.back().id != plan.goal->id)) {
-      goals.push_back(*plan.goal);
-    }
-    return plan;
-  }
-
-  /// \return the decisions until the end; `most` when it did not come.
-  int fly(int most) {
-    for (int step = 0; step < most; ++step) {
-      if (decide().status == ActiveStatus::finished) return step;
-      const Eigen::Vector3d way = plan.goal->position - body;
-      body += way * std::min(1.0, speed / std::max(way.norm(), 1e-9));
-    }
-    return most;
-  }
-
-  [[nodiscard]] const Target& target(int index) const { return policy->targets()[index]; }
-
-  std::unique_ptr<Policy> policy;
-  ActiveInput input;
-  ActivePlan plan;
-  Eigen::Vector3d body = {0, 0, 3};
-  double speed = 2;
-  std::vector<Viewpoint> goals;  ///< in their order
+      : made::Flight(make_policy(config, kTable, map_of(cars), in_geofence)) {}
 };
 
 const std::vector<Cuboid> kStreet = {car(20, 5), car(40, -4, 0.5), car(60, 6, 1.2), car(80, -8, 3)};
@@ -215,7 +179,7 @@ TEST(Visit, KnowsThatTheBlockIsInOdom) {
 TEST(Visit, VehicleThatNeverMovesEnds) {
   Flight flight(kStreet);
   flight.speed = 0;
-  const double each = kVisit.attempts * kVisit.most_refusals * (kVisit.standing_s + 3);
+  const double each = kGoals.attempts * kGoals.most_refusals * (kGoals.standing_s + 3);
   EXPECT_LT(flight.fly(1000), 4 * each);
   EXPECT_EQ(flight.plan.unreachable, 4);
   EXPECT_NE(flight.target(2).reason.find("no nearer"), std::string::npos);
@@ -227,7 +191,7 @@ TEST(Visit, VehicleThatWandersButComesNoNearerEnds) {
   for (; decisions < 1000 && flight.decide().goal; ++decisions) {
     flight.body.x() = decisions % 2 ? -1 : 1;
   }
-  EXPECT_LT(decisions, 4 * kVisit.attempts * kVisit.most_refusals * (kVisit.patience_s + 3));
+  EXPECT_LT(decisions, 4 * kGoals.attempts * kGoals.most_refusals * (kGoals.patience_s + 3));
   EXPECT_EQ(flight.plan.unreachable, 4);
 }
 
@@ -235,7 +199,7 @@ TEST(Visit, DetourIsFlownToItsEndWhileTheVehicleMoves) {
   Flight flight({car(30, 0)});
   flight.decide();
   const int goal = flight.plan.goal->id;
-  for (int second = 0; second + 2 < kVisit.patience_s;
+  for (int second = 0; second + 2 < kGoals.patience_s;
        ++second) {  // away from it, around something
     flight.body.y() += 0.5;
     EXPECT_EQ(flight.decide().goal->id, goal);
@@ -249,7 +213,7 @@ TEST(Visit, MotionThatRefusesEverythingEnds) {
     flight.policy->refuse(flight.plan.goal->id, "no path");
     ++decisions;
   }
-  EXPECT_EQ(decisions, 4 * kVisit.attempts * kVisit.most_refusals);
+  EXPECT_EQ(decisions, 4 * kGoals.attempts * kGoals.most_refusals);
   EXPECT_EQ(flight.plan.unreachable, 4);
   EXPECT_NE(flight.target(0).reason.find("no path"), std::string::npos);
 }
@@ -265,7 +229,7 @@ TEST(Visit, BlockThatFlickersEnds) {
     fill(grid, goal.array() - 1, goal.array() + 1);
     flight.see(grid);
   }
-  EXPECT_LE(decisions, 2 * kVisit.attempts * kVisit.most_goals);
+  EXPECT_LE(decisions, 2 * kGoals.attempts * kGoals.most_goals);
 }
 
 TEST(Visit, RefusedViewpointIsNotOfferedAgainNorOneBesideIt) {
@@ -274,7 +238,7 @@ TEST(Visit, RefusedViewpointIsNotOfferedAgainNorOneBesideIt) {
   const Viewpoint refused = *flight.plan.goal;
   flight.policy->refuse(refused.id, "no path");
   flight.decide();
-  EXPECT_GE((flight.plan.goal->position - refused.position).norm(), kVisit.refused_m);
+  EXPECT_GE((flight.plan.goal->position - refused.position).norm(), kGoals.refused_m);
 }
 
 TEST(Visit, RefusalOfAnotherViewpointThanTheGoalChangesNothing) {
@@ -287,9 +251,9 @@ TEST(Visit, RefusalOfAnotherViewpointThanTheGoalChangesNothing) {
 
 TEST(Visit, TargetThatWasRefusedIsTriedAgainAfterTheOthers) {
   ActiveConfig one_way;
-  one_way.visit_policy.return_home = false;
+  one_way.goals.return_home = false;
   Flight flight({car(15, 0), car(40, 0)}, everywhere, one_way);
-  for (int i = 0; i < kVisit.most_refusals; ++i) {
+  for (int i = 0; i < kGoals.most_refusals; ++i) {
     EXPECT_EQ(flight.decide().goal->target_id, 0);
     flight.policy->refuse(flight.plan.goal->id, "no path");
   }
@@ -340,7 +304,7 @@ TEST(Policy, ConfigurationThatCannotBeIsRefused) {
   crowded.visit_policy.sides = 3;  // and 120° apart: the third may find no room
   EXPECT_THROW((void)make_policy(crowded, kTable, {}, everywhere), Error);
   ActiveConfig hasty;
-  hasty.visit_policy.standing_s = hasty.visit_policy.dwell_s;
+  hasty.goals.standing_s = hasty.visit_policy.dwell_s;
   EXPECT_THROW((void)make_policy(hasty, kTable, {}, everywhere), Error);
   ActiveConfig blind;
   blind.view.nearest_m = blind.view.farthest_m;

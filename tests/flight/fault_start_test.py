@@ -1,5 +1,6 @@
 """What keeps a process from starting is one clear line and status 2, for every process of a flight."""
 
+import json
 import os
 import pathlib
 import subprocess
@@ -117,6 +118,24 @@ class Start(unittest.TestCase):
                             ({"meta": self.folder / "broken.json"}, "broken.json")):
             with self.subTest(files):
                 self.refused("saker-flight", in_namespace(*self.flight(**files)), word)
+
+    def prior(self, name, places):
+        objects = [{"id": i, "class": "vehicle", "probability": 1, "observations": 1, "position": place,
+                    "rotation": [0, 0, 0, 1], "size": [4.5, 1.8, 1.5]} for i, place in enumerate(places)]
+        (self.folder / name).write_text(json.dumps({"frame": "world", "objects": objects, "ground": []}))
+        return self.folder / name
+
+    def test_prior_maps_that_cannot_be(self):
+        many = self.prior("many.json", [[10 * i, 0, 0.7] for i in range(10_000)])
+        self.refused("saker-flight", in_namespace(*self.flight(prior=many)), "10000 targets", "most_targets")
+        for name, place in (("nan.json", [1, float("nan"), 0]), ("inf.json", [1, 1e300, 0]), ("null.json", [1, None, 0])):
+            with self.subTest(name):
+                self.refused("saker-flight", in_namespace(*self.flight(prior=self.prior(name, [place]))), name)
+
+    def test_a_geofence_that_is_too_large_to_sweep(self):
+        empty = self.prior("empty.json", [])
+        wide = "motion.geofence.polygon_m=[-9000, -9000, 9000, -9000, 9000, 9000]"
+        self.refused("saker-flight", in_namespace(*self.flight(prior=empty), "--set", wide), "most_cells")
 
     def test_a_port_that_is_taken(self):
         taken = ("import socket,subprocess,sys; s=socket.socket(type=socket.SOCK_DGRAM); s.bind(('',7502)); "

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "simulation/collision.h"
 #include "simulation/truth.h"
@@ -148,6 +150,72 @@ TEST(MissionWorld, TheFenceHoldsAllTargets) {
     EXPECT_LT(p.x(), site.fence.polygon_m[4] - 5);
     EXPECT_GT(p.y(), site.fence.polygon_m[1] + 5);
     EXPECT_LT(p.y(), site.fence.polygon_m[5] - 5);
+  }
+}
+
+const objects::MapObject* entry_of(const objects::ObjectMap& map, int id) {
+  const auto found = std::ranges::find(map.objects, id, &objects::MapObject::id);
+  return found == map.objects.end() ? nullptr : &*found;
+}
+
+TEST(MissionWorld, WithoutAPriorTheSiteAndItsFenceAreTheSame) {
+  MissionConfig config;
+  const MissionWorld with = build_mission_world(config, 3);
+  config.site.no_prior = true;
+  const MissionWorld without = build_mission_world(config, 3);
+  EXPECT_TRUE(without.prior.objects.empty());
+  EXPECT_EQ(without.targets, with.targets);
+  EXPECT_EQ(without.targets.size(), 8U);
+  EXPECT_EQ(without.fence.polygon_m, with.fence.polygon_m);
+}
+
+TEST(MissionWorld, AWrongPriorHasWhatItWasAskedForAndTheRightOnesStay) {
+  MissionConfig config;
+  const MissionWorld right = build_mission_world(config, 4);
+  config.site.prior_errors = {.missing_share = 0.25, .invented = 2, .duplicates = 3, .mistaken = 1};
+  const MissionWorld wrong = build_mission_world(config, 4);
+  EXPECT_EQ(wrong.prior.objects.size(), 8U - 2 + 2 + 3 + 1);
+  EXPECT_EQ(wrong.targets, right.targets);
+  EXPECT_EQ(wrong.fence.polygon_m, right.fence.polygon_m);
+  int kept = 0;
+  for (const objects::MapObject& entry : right.prior.objects) {
+    const objects::MapObject* same = entry_of(wrong.prior, entry.id);
+    if (same == nullptr) continue;
+    ++kept;
+    EXPECT_EQ(objects::place(same->model), objects::place(entry.model));
+  }
+  EXPECT_EQ(kept, 6);
+}
+
+TEST(MissionWorld, InventedVehiclesAreFarFromAllTrueOnesAndInTheFence) {
+  MissionConfig config;
+  config.site.prior_errors.invented = 4;
+  const MissionWorld site = build_mission_world(config, 4);
+  const objects::ObjectMap truth =
+      truth_map(site.world(), site.T_sim_world.inverse(), no_hits(site.world()));
+  int invented = 0;
+  for (const objects::MapObject& entry : site.prior.objects) {
+    if (std::ranges::find(site.targets, entry.id) != site.targets.end()) continue;
+    ++invented;
+    const Eigen::Vector3d place = objects::place(entry.model);
+    EXPECT_GT(place.x(), site.fence.polygon_m[0]);
+    EXPECT_LT(place.x(), site.fence.polygon_m[4]);
+    for (const objects::MapObject& object : truth.objects) {
+      if (object.class_id != entry.class_id) continue;
+      EXPECT_GT((objects::place(object.model) - place).head<2>().norm(), 7.9);
+    }
+  }
+  EXPECT_EQ(invented, 4);
+}
+
+TEST(MissionWorld, MoreMistakenThanThereAreTreesAndPolesAreRefusedByName) {
+  MissionConfig config;
+  config.site.prior_errors.mistaken = 100;
+  try {
+    (void)build_mission_world(config, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("prior_errors.mistaken"), std::string::npos);
   }
 }
 

@@ -72,6 +72,10 @@ class Experiment(ProgramTest):
     def test_a_site_without_room_is_refused(self):
         self.scenario.write_text("kind: mission\nmission:\n  site: {targets: 100}\n")
         self.assertIn("targets", self.refused("experiment", self.scenario, "-o", self.out))
+        for errors, word in (("mistaken: 90", "trees and poles"), ("invented: .nan", "invented"),
+                             ("missing_share: 2", "missing_share")):
+            self.scenario.write_text(f"kind: mission\nmission:\n  site: {{prior_errors: {{{errors}}}}}\n")
+            self.assertIn(word, self.refused("experiment", self.scenario, "-o", self.out))
 
 
 if __name__ == "__main__":

@@ -17,9 +17,14 @@ double value(const Json& figures, const char* key) {
   return entry.is_number() ? entry.get<double>() : kNone;
 }
 
-std::vector<int> ids_of(const objects::ObjectMap& map) {
+/// Ids of those of the prior map that are there.
+std::vector<int> true_targets(const FlownMission& flight) {
+  const auto& truth = flight.truth.map.objects;
   std::vector<int> ids;
-  for (const objects::MapObject& object : map.objects) ids.push_back(object.id);
+  for (const objects::MapObject& object : flight.prior.objects) {
+    const bool there = std::ranges::find(truth, object.id, &objects::MapObject::id) != truth.end();
+    if (there) ids.push_back(object.id);
+  }
   return ids;
 }
 
@@ -92,7 +97,7 @@ std::string flown(const Json& figures) {
 }  // namespace
 
 Json flight_figures(const FlownMission& flight, const objects::ClassTable& table) try {
-  const std::vector<int> targets = ids_of(flight.prior);
+  const std::vector<int> targets = true_targets(flight);
   Json figures = target_figures(flight.map, flight.truth.map, targets, table);
   figures["missed"] = missed_of(targets, figures["errors"]);
   add_true_sizes(figures["errors"], flight.truth.map);

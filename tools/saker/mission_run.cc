@@ -33,18 +33,15 @@ double longest_s(const autonomy::MissionConfig& config) {
               config.landing_s);
 }
 
-/// Ids of the true vehicles that the prior map is about: those nearest to take-off
-/// (`mission.site.targets`).
-std::vector<int> true_targets(const objects::ObjectMap& truth, const objects::ObjectMap& prior) {
-  std::vector<std::pair<double, int>> by_distance;
-  for (const objects::MapObject& object : truth.objects) {
-    if (object.class_id != prior.objects.front().class_id) continue;
-    by_distance.emplace_back(objects::place(object.model).norm(), object.id);
-  }
-  std::sort(by_distance.begin(), by_distance.end());
-  by_distance.resize(std::min(by_distance.size(), prior.objects.size()));
+/// Ids of all parked vehicles over which the vehicle may fly, targets or not.
+std::vector<int> in_fence(const objects::ObjectMap& truth, const autonomy::Config& config) {
+  const motion::Geofence fence(config.motion.geofence);
   std::vector<int> ids;
-  for (const auto& [distance, id] : by_distance) ids.push_back(id);
+  for (const objects::MapObject& object : truth.objects) {
+    const Eigen::Vector3d place = objects::place(object.model);
+    const bool inside = fence.inside_polygon_m(place.head<2>()) >= 0;
+    if (inside && config.objects[object.class_id].target) ids.push_back(object.id);
+  }
   return ids;
 }
 
@@ -133,7 +130,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
   core::Timings timings;
   autonomy::MissionLockstep mission(config, vehicle.sensor(), site.prior, plant, checker,
                                     run.threads, timings);
-  MissionRecorder recorder(vehicle, run.scenario, static_cast<int>(site.prior.objects.size()));
+  MissionRecorder recorder(vehicle, run.scenario, static_cast<int>(site.targets.size()));
   const double built_s = seconds_since(begin);
   const Time start = vehicle.now();
   const autonomy::MissionResult result = mission.run(longest_s(config.mission), recorder);
@@ -145,8 +142,10 @@ Json fly(const MissionRun& run, const fs::path& out) {
       {"policy",
        active::enum_names(config.active.policy)[static_cast<std::size_t>(config.active.policy)]},
       {"seed", run.seed}};
-  results.update(
-      target_figures(result.map, truth, true_targets(truth, site.prior), config.objects));
+  results.update(target_figures(result.map, truth, site.targets, config.objects));
+  const Json around = target_figures(result.map, truth, in_fence(truth, config), config.objects);
+  results["in_fence"] = around["targets"];
+  results["in_fence_found"] = around["found"];
   results.update(mission_figures(result, vehicle.truth()));
   const Json trajectory =
       trajectory_figures(result.scans, result.T_world_lidar, recorder.true_poses());

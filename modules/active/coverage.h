@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "active/discovery_config.h"
+#include "active/viewpoint.h"
+#include "motion/geofence.h"
+#include "objects/object_map.h"
+
+namespace saker::active {
+
+/// What was seen of the geofence, and where to fly in order to see the rest: stops on the lines of
+/// a sweep, and one for each square that no line comes near. A square belongs to its nearest stop;
+/// a stop is due while too few of its squares were seen and it is not closed. There are finitely
+/// many and none opens again: a sweep ends.
+class Coverage {
+ public:
+  /// \param farthest_m in x-y, from which a square is seen.
+  /// The sweep begins at that end of it that is nearer to the place of take-off. Throws Error where
+  /// the geofence has too many squares.
+  Coverage(const SweepConfig& config, double farthest_m, const motion::Geofence& fence);
+
+  /// Looks around for `seconds`: squares in range of which it is known what stands there are seen.
+  void look(const Eigen::Vector3d& eye, double seconds, const Surroundings& surroundings,
+            const objects::ObjectMap* map);
+
+  /// The stop to fly to: the first that is due, from the last one on and around; none: covered.
+  [[nodiscard]] std::optional<std::size_t> next();
+
+  void close(std::size_t stop) { closed_[stop] = true; }
+
+  [[nodiscard]] bool due(std::size_t stop) const;
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& stops() const { return stops_; }
+  [[nodiscard]] double seen_share() const;  ///< of the geofence
+
+ private:
+  struct Square {
+    Eigen::Vector2d middle;
+    std::size_t stop;
+    double seen_s = 0;
+  };
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> middles(const motion::Geofence& fence) const;
+  void assign(const std::vector<Eigen::Vector2d>& middles);
+
+  SweepConfig config_;
+  double farthest_m_;
+  std::vector<Eigen::Vector2d> stops_;
+  std::vector<Square> squares_;
+  std::vector<int> squares_of_, seen_of_;  ///< numbers, one a stop
+  std::vector<bool> closed_;
+  std::size_t current_ = 0;
+};
+
+}  // namespace saker::active

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "motion/limits.h"
+
+namespace saker::active {
+
+/// Seconds from rest to rest along a straight line and through a turn, as `motion` times its
+/// trajectories: speed, climb and turn each with a trapezoid (or triangle) of its limits, the
+/// slowest counts, and the window that smooths it. A way in two parts takes no less.
+/// \param way m; \param turn rad.
+[[nodiscard]] double flight_time_s(const Eigen::Vector3d& way, double turn,
+                                   const motion::LimitsConfig& limits);
+
+}  // namespace saker::active

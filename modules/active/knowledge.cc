@@ -1,0 +1,73 @@
+#include "active/knowledge.h"
+
+#include <algorithm>
+#include <map>
+
+namespace saker::active {
+namespace {
+
+using Eigen::Matrix4d;
+
+bool is_cylinder(objects::ClassId class_id, const ViewModel& model) {
+  return model.common(class_id).rows() == 2;
+}
+
+Covariance counted_common(const Target& target, const ViewModel& model, const PamsConfig& config) {
+  const Covariance common = model.common(target.class_id);
+  return config.common_counts ? common : Covariance(0 * common);
+}
+
+/// What one look tells, if x and y have drifted since the first one.
+Matrix4d information(const uncertainty::Prediction& prediction, double flown_m,
+                     const PamsConfig& config) {
+  const double drift = config.drift_counts ? config.drift_m * config.drift_m * flown_m : 0;
+  return information_of(prediction.covariance, drift);
+}
+
+}  // namespace
+
+uncertainty::View view_from(const Eigen::Vector3d& eye, const Target& target,
+                            const ViewModel& model) {
+  if (!is_cylinder(target.class_id, model)) return uncertainty::view_of(eye, target.extent);
+  objects::Cylinder cylinder;
+  cylinder.height = target.extent.size.z();
+  cylinder.radius = 0.5 * target.extent.size.x();
+  cylinder.root = target.place() - 0.5 * cylinder.height * Eigen::Vector3d::UnitZ();
+  return uncertainty::view_of(eye, cylinder);
+}
+
+Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
+  const double place = config.prior_place_m * config.prior_place_m;
+  const double size = config.prior_size_m * config.prior_size_m;
+  const Eigen::Vector4d variances(place, place, size, size);
+  return Covariance(variances.head(cylinder ? 2 : 4).asDiagonal());
+}
+
+Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& model,
+                     const PamsConfig& config)
+    : belief_(prior_covariance(config, is_cylinder(target.class_id, model)),
+              counted_common(target, model, config)) {
+  struct Cell {
+    double seconds = 0;
+    Matrix4d weighted = Matrix4d::Zero();  // Σ seconds · information
+  };
+  std::map<int, Cell> cells;
+  for (const Looks::Look& look : looks.all()) {
+    const uncertainty::View view = view_from(look.eye, target, model);
+    const uncertainty::Prediction prediction = model.predict(target.class_id, view);
+    Cell& cell = cells[prediction.cell];
+    cell.seconds += look.seconds;
+    cell.weighted += look.seconds * information(prediction, look.flown_m - looks.first_m(), config);
+  }
+  for (const auto& [id, cell] : cells) {
+    if (cell.seconds < config.dwell_s) continue;
+    cells_.push_back(id);
+    belief_.add(cell.weighted / cell.seconds);
+  }
+}
+
+bool Knowledge::counted(int cell) const {
+  return std::binary_search(cells_.begin(), cells_.end(), cell);
+}
+
+}  // namespace saker::active

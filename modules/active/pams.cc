@@ -1,0 +1,279 @@
+#include "active/pams.h"
+
+#include <algorithm>
+
+#include "active/flight_time.h"
+
+namespace saker::active {
+
+PamsPolicy::PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,
+                       InGeofence in_geofence, ViewModel model, const motion::LimitsConfig& limits)
+    : VisitPolicy(config, std::move(targets), std::move(in_geofence)),
+      pams_(pams),
+      model_(std::move(model)),
+      limits_(limits) {}
+
+void PamsPolicy::make_room(std::size_t targets) {
+  VisitPolicy::make_room(targets);
+  const ViewpointConfig& viewpoints = config_.viewpoints;
+  looks_.resize(targets, Looks(viewpoints.bearings, viewpoints.ring_step_m));
+  cells_.resize(targets, 0);
+  views_.resize(targets, 0);
+}
+
+ActivePlan PamsPolicy::plan(const ActiveInput& input, const core::Budget& budget) {
+  flown_.clear();
+  reachability_.reset();
+  ActivePlan plan = VisitPolicy::plan(input, budget);
+  if (goal_ && flies_to(goal_->target)) plan.expected = expected_;
+  plan.flown = flown_;
+  return plan;
+}
+
+void PamsPolicy::look(int index) {
+  looks_[index].add(body_, targets_[index].place(), elapsed_s_, flown_m_);
+  if (!targets_[index].mapped()) return VisitPolicy::look(index);
+  const Knowledge known = known_of(index);
+  if (known.cells() > cells_[index]) {
+    cells_[index] = known.cells();
+    saw_something_new(index);
+  }
+  if (flies_to(index) && known.counted(expected_->cell)) {
+    flown_.push_back(*expected_);
+    expected_.reset();
+  }
+  if (enough(index, known)) close(index, seen_status(index), why_none(index));
+}
+
+bool PamsPolicy::choose(int index) {
+  if (!targets_[index].mapped()) {
+    expected_.reset();
+    return VisitPolicy::choose(index);
+  }
+  candidates_.clear();
+  if (views_[index] >= pams_.most_views || enough(index, known_of(index))) return false;
+  if (!reachability_) {
+    reachability_.emplace(surroundings_, body_, config_.viewpoints.clearance_m, in_geofence_);
+  }
+  candidates_ = viewpoints_of(index);
+  for (Candidate& candidate : candidates_) judge(candidate, index);
+  if (choose_among(index, region_of(index))) return true;
+  return pams_.beyond_region && choose_among(index, std::vector<bool>(candidates_.size(), true));
+}
+
+/// Whether each candidate lies in the region of good views, about the present estimate.
+std::vector<bool> PamsPolicy::region_of(int index) const {
+  const Target& target = targets_[index];
+  std::vector<bool> region;
+  for (const Candidate& candidate : candidates_) {
+    const uncertainty::View view = view_from(candidate.viewpoint.position, target, model_);
+    region.push_back(model_.in_region(target.class_id, view));
+  }
+  return region;
+}
+
+/// Refusals that depend on the flight so far.
+void PamsPolicy::judge(Candidate& candidate, int index) const {
+  const Eigen::Vector3d& place = candidate.viewpoint.position;
+  candidate.cost_m = (body_ - place).norm();
+  if (candidate.refusal != Refusal::none) return;
+  const double since_m = flown_m_ + candidate.cost_m - looks_[index].first_m();
+  if (was_given_up(index, candidate.viewpoint)) {
+    candidate.refusal = Refusal::motion;
+  } else if (!reachability_->reaches(place)) {
+    candidate.refusal = Refusal::enclosed;
+  } else if (pams_.drift_m * std::sqrt(std::max(since_m, 0.0)) > pams_.most_drift_m) {
+    candidate.refusal = Refusal::drift;
+  }
+}
+
+/// Whether the goal is a viewpoint of this target that was weighed, not one to look for it from.
+bool PamsPolicy::flies_to(int index) const {
+  return goal_ && goal_->target == index && expected_ &&
+         expected_->viewpoint_id == goal_->viewpoint.id;
+}
+
+bool PamsPolicy::choose_among(int index, const std::vector<bool>& region) {
+  const std::vector<int> samples =
+      region_samples(candidates_, region, pams_.sampling, config_.viewpoints.rings);
+  std::vector<bool> sampled(candidates_.size(), false);
+  for (const int sample : samples) sampled[sample] = true;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    Refusal& refusal = candidates_[i].refusal;
+    if (refusal == Refusal::none || refusal == Refusal::region) {
+      refusal = sampled[i] ? Refusal::none : Refusal::region;
+    }
+  }
+  const Choice choice = choice_among(index, samples);
+  const std::optional<Path> path = best_path(choice);
+  if (!path) return false;
+  const Viewpoint& next = choice.samples[path->stops.front()].viewpoint;
+  if (flies_to(index) && next.id == goal_->viewpoint.id) return true;
+  expect(choice, *path);
+  ++views_[index];
+  return fly_to(index, next);
+}
+
+PamsPolicy::Choice PamsPolicy::choice_among(int index, const std::vector<int>& samples) {
+  Choice choice;
+  choice.together = seen_together(index);
+  for (const int target : choice.together) {
+    choice.known.push_back(known_of(target));
+    choice.problem.objects.push_back(choice.known.back().belief());
+    const double since_m = flown_m_ - looks_[target].first_m();
+    choice.problem.drifted_m.push_back(std::isfinite(since_m) ? since_m : 0);
+  }
+  const auto weigh = [&](Candidate& candidate) {
+    if (candidate.refusal != Refusal::none) return;
+    std::vector<Sight> told = sights(candidate.viewpoint.position, choice);
+    if (told.empty() || told.front().object != 0) {
+      candidate.refusal = Refusal::seen;
+      return;
+    }
+    choice.problem.stops.push_back(std::move(told));
+    choice.samples.push_back(candidate);
+  };
+  for (const int sample : samples) {
+    const bool is_goal = flies_to(index) && candidates_[sample].viewpoint.id == goal_->viewpoint.id;
+    if (!is_goal) weigh(candidates_[sample]);
+  }
+  if (flies_to(index)) {
+    Candidate goal = goal_as_candidate();
+    judge(goal, index);
+    weigh(goal);
+  }
+  add_ways(choice);
+  return choice;
+}
+
+/// The target and the nearest others that a viewpoint of it may see.
+std::vector<int> PamsPolicy::seen_together(int index) const {
+  const Eigen::Vector3d place = targets_[index].place();
+  const double reach = 2 * config_.view.farthest_m;
+  std::vector<std::pair<double, int>> near;
+  for (int other = 0; other < targets_.size(); ++other) {
+    const Target& target = targets_[other];
+    const double distance = (target.place() - place).norm();
+    if (target.status != TargetStatus::pending || !target.mapped() || distance > reach) continue;
+    near.emplace_back(other == index ? -1 : distance, other);
+  }
+  std::sort(near.begin(), near.end());
+  std::vector<int> together;
+  for (const auto& [distance, other] : near) {
+    if (static_cast<int>(together.size()) < pams_.at_once) together.push_back(other);
+  }
+  return together;
+}
+
+/// What is seen from `eye` and was not yet; of the current target, which is in view, first.
+std::vector<Sight> PamsPolicy::sights(const Eigen::Vector3d& eye, const Choice& choice) const {
+  std::vector<Sight> told;
+  for (int object = 0; object < static_cast<int>(choice.together.size()); ++object) {
+    const Target& target = targets_[choice.together[object]];
+    if (object > 0 && !sees(eye, target, config_.view.margin_deg)) continue;
+    const uncertainty::View view = view_from(eye, target, model_);
+    const uncertainty::Prediction prediction = model_.predict(target.class_id, view);
+    if (choice.known[object].counted(prediction.cell)) continue;
+    told.push_back({object, prediction.cell, prediction.covariance});
+  }
+  return told;
+}
+
+/// Ways and times between the vehicle, the samples and the next target.
+void PamsPolicy::add_ways(Choice& choice) const {
+  PathProblem& problem = choice.problem;
+  const int count = static_cast<int>(choice.samples.size());
+  const std::optional<Eigen::Vector3d> next = next_place();
+  const auto seconds = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, double turn) {
+    return flight_time_s(b - a, turn, limits_);
+  };
+  problem.to_m = problem.to_s = problem.on_s = Eigen::VectorXd::Zero(count);
+  problem.between_m = problem.between_s = Eigen::MatrixXd::Zero(count, count);
+  for (int i = 0; i < count; ++i) {
+    const Viewpoint& a = choice.samples[i].viewpoint;
+    problem.to_m[i] = (a.position - body_).norm();
+    problem.to_s[i] = seconds(body_, a.position, a.yaw - yaw_);
+    if (next) problem.on_s[i] = seconds(a.position, *next, 0);
+    for (int j = 0; j < count; ++j) {
+      const Viewpoint& b = choice.samples[j].viewpoint;
+      problem.between_m(i, j) = (b.position - a.position).norm();
+      problem.between_s(i, j) = seconds(a.position, b.position, b.yaw - a.yaw);
+    }
+  }
+  if (next) problem.direct_s = seconds(body_, *next, 0);
+  problem.dwell_s = pams_.dwell_s;
+  problem.drift_m = pams_.drift_counts ? pams_.drift_m : 0;
+  problem.price_per_s = pams_.price_per_s;
+  problem.horizon = pams_.horizon;
+  problem.most_paths = pams_.most_paths;
+  problem.beam = pams_.beam;
+}
+
+/// The path to fly; that through the goal while nothing is better by a margin. None when no path
+/// brings enough.
+std::optional<Path> PamsPolicy::best_path(const Choice& choice) const {
+  if (choice.samples.empty()) return std::nullopt;
+  const Path best = choose_path(choice.problem).best;
+  const int last = static_cast<int>(choice.samples.size()) - 1;
+  const int current = choice.together.front();
+  if (flies_to(current) && choice.samples[last].viewpoint.id == goal_->viewpoint.id) {
+    Path through_goal = choose_path(choice.problem, last).best;
+    if (!pams_.replan || through_goal.value >= best.value - pams_.switch_gain) return through_goal;
+  }
+  if (best.stops.empty() || best.gain < pams_.least_gain) return std::nullopt;
+  return best;
+}
+
+/// What is predicted of the path's first viewpoint, before it is flown to.
+void PamsPolicy::expect(const Choice& choice, const Path& path) {
+  const int stop = path.stops.front();
+  const Target& target = targets_[choice.together.front()];
+  const Eigen::MatrixXd common = model_.common(target.class_id);
+  Eigen::Matrix4d covariance = after(choice.problem, {stop}).front().covariance();
+  if (!pams_.common_counts) covariance.topLeftCorner(common.rows(), common.cols()) += common;
+  Expectation expected;
+  expected.viewpoint_id = choice.samples[stop].viewpoint.id;
+  expected.target_id = target.id;
+  expected.object_id = target.object_id;
+  expected.cell = choice.problem.stops[stop].front().cell;
+  expected.gain = path_through(choice.problem, {stop}).gain;
+  expected.covariance = covariance.topLeftCorner(common.rows(), common.cols());
+  expected_ = expected;
+}
+
+Knowledge PamsPolicy::known_of(int index) const {
+  return Knowledge(targets_[index], looks_[index], model_, pams_);
+}
+
+bool PamsPolicy::enough(int index, const Knowledge& known) const {
+  return known.belief().entropy() <= pams_.enough_entropy &&
+         class_probability(targets_[index]) >= pams_.least_probability;
+}
+
+/// Of the mapped object's class; 1 where the map does not say.
+double PamsPolicy::class_probability(const Target& target) const {
+  if (!map_) return 1;
+  for (const objects::MapObject& object : map_->objects) {
+    if (object.id != target.object_id) continue;
+    const std::vector<double>& probability = object.class_probability;
+    return target.class_id < probability.size() ? probability[target.class_id] : 1;
+  }
+  return 1;
+}
+
+std::string PamsPolicy::why_none(int index) const {
+  if (!targets_[index].mapped()) return VisitPolicy::why_none(index);
+  if (enough(index, known_of(index))) return "known well enough";
+  if (views_[index] >= pams_.most_views) return "as many viewpoints were flown to as may be";
+  const bool any = std::any_of(candidates_.begin(), candidates_.end(),
+                               [](const Candidate& c) { return c.refusal == Refusal::none; });
+  return any ? "no viewpoint in reach tells enough more" : VisitPolicy::why_none(index);
+}
+
+std::string PamsPolicy::seen_from(int index) const {
+  if (cells_[index] > 0) return "seen from " + std::to_string(cells_[index]) + " cells";
+  const bool in_passing = targets_[index].mapped() && !looks_[index].all().empty();
+  return in_passing ? "seen in passing" : VisitPolicy::seen_from(index);
+}
+
+}  // namespace saker::active

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "active/knowledge.h"
+#include "active/looks.h"
+#include "active/path_search.h"
+#include "active/reachability.h"
+#include "active/view_model.h"
+#include "active/visit.h"
+#include "motion/limits.h"
+
+namespace saker::active {
+
+/// Planning for active metric-semantic mapping (paper, "PAMS"): policies `paper` and `saker`.
+///
+/// Until a target is in the map it is looked for as policy `visit` does: nobody knows its heading.
+/// From then on: samples of the region of high confidence and low geometric uncertainty about its
+/// present estimate; of these, what can be reached and has it in view; the path through up to T of
+/// them that takes most off its entropy; its first viewpoint is flown to, until the target was in
+/// view from that cell of the model for a dwell. What is seen under way counts as well. A target
+/// ends at the entropy threshold (and a class that is sure), when its samples are used up, or when
+/// no path through them brings enough.
+///
+/// `saker` beyond the paper: a second of flight has its price, so that a path is flown when it
+/// brings more nat a second than that, with the way on to the next target taken into account; a
+/// viewpoint is weighed for the neighbours that it sees, too; the drift of the pose lessens what
+/// later views are worth; what all views have in common sets an end to what is worth flying; a
+/// better viewpoint replaces the one that is flown to. Cost: some 20 ms a decision.
+class PamsPolicy : public VisitPolicy {
+ public:
+  PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,
+             InGeofence in_geofence, ViewModel model, const motion::LimitsConfig& limits);
+
+  [[nodiscard]] ActivePlan plan(const ActiveInput& input, const core::Budget& budget) override;
+
+ protected:
+  void make_room(std::size_t targets) override;
+  void look(int index) override;
+  [[nodiscard]] bool choose(int index) override;
+  [[nodiscard]] std::string why_none(int index) const override;
+  [[nodiscard]] std::string seen_from(int index) const override;
+
+ private:
+  /// The viewpoints that are weighed, as a problem of the search; the goal, if among them, is last.
+  struct Choice {
+    std::vector<int> together;  ///< targets, the current one first
+    std::vector<Knowledge> known;
+    std::vector<Candidate> samples;
+    PathProblem problem;
+  };
+
+  [[nodiscard]] bool choose_among(int index, const std::vector<bool>& region);
+  [[nodiscard]] std::vector<bool> region_of(int index) const;
+  void judge(Candidate& candidate, int index) const;
+  [[nodiscard]] bool flies_to(int index) const;
+  [[nodiscard]] Choice choice_among(int index, const std::vector<int>& samples);
+  [[nodiscard]] std::vector<int> seen_together(int index) const;
+  [[nodiscard]] std::vector<Sight> sights(const Eigen::Vector3d& eye, const Choice& choice) const;
+  void add_ways(Choice& choice) const;
+  [[nodiscard]] std::optional<Path> best_path(const Choice& choice) const;
+  void expect(const Choice& choice, const Path& path);
+  [[nodiscard]] Knowledge known_of(int index) const;
+  [[nodiscard]] bool enough(int index, const Knowledge& known) const;
+  [[nodiscard]] double class_probability(const Target& target) const;
+
+  PamsConfig pams_;
+  ViewModel model_;
+  motion::LimitsConfig limits_;
+  std::vector<Looks> looks_;                  ///< one a target, as the next two
+  std::vector<int> cells_;                    ///< the most that ever counted
+  std::vector<int> views_;                    ///< viewpoints flown
+  std::optional<Reachability> reachability_;  ///< of this decision
+  std::optional<Expectation> expected_;       ///< of the goal
+  std::vector<Expectation> flown_;            ///< in this decision
+};
+
+}  // namespace saker::active

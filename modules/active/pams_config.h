@@ -1,0 +1,84 @@
+#pragma once
+
+#include "active/region_samples.h"
+#include "core/config.h"
+
+namespace saker::active {
+
+/// One method, PAMS, with two sets of defaults: `paper` as the paper has it, `saker` beyond it.
+struct PamsConfig {
+  Sampling sampling = Sampling::centroids;
+  bool beyond_region = false;
+  int horizon = 3;
+  double most_paths = 25000;
+  int beam = 60;
+  double dwell_s = 1.5;
+  double prior_place_m = 0.5;
+  double prior_size_m = 0.5;
+  bool common_counts = false;
+  double enough_entropy = -10;
+  double least_probability = 0.8;
+  double least_gain = 0.05;
+  double price_per_s = 0;
+  int at_once = 1;
+  bool replan = false;
+  double switch_gain = 0.3;
+  double drift_m = 0.01;
+  bool drift_counts = false;
+  double most_drift_m = 0.3;
+  int most_views = 12;
+
+  [[nodiscard]] static PamsConfig paper() { return {}; }
+
+  [[nodiscard]] static PamsConfig saker() {
+    PamsConfig config;
+    config.sampling = Sampling::uniform;
+    config.beyond_region = true;
+    config.common_counts = true;
+    config.price_per_s = 0.05;
+    config.at_once = 4;
+    config.replan = true;
+    config.drift_counts = true;
+    return config;
+  }
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("sampling", sampling, "",
+            "of the region of good views: all of the lattice in it, or each part's centroid");
+    v.field("beyond_region", beyond_region, "",
+            "whether other views are weighed when none in the region tells anything");
+    v.field("horizon", horizon, {1, 5}, "", "viewpoints in a path, the paper's T");
+    v.field("most_paths", most_paths, {1, 1e6}, "",
+            "ordered paths up to which all are weighed: 30 samples, 3 at a time; then a beam");
+    v.field("beam", beam, {1, 1000}, "", "partial paths that the beam search keeps");
+    v.field("dwell_s", dwell_s, {0, 60}, "s",
+            "in view from a cell of the model until it counts: its window has all points of it");
+    v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
+            "sd of x and y before the first view: half a car's width");
+    v.field("prior_size_m", prior_size_m, {0.01, 10}, "m",
+            "sd of length and width before it: cars differ by this");
+    v.field(
+        "common_counts", common_counts, "",
+        "whether the error that all views share is part of the entropy: it cannot be flown off");
+    v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
+            "½ ln det of the covariance in m² at which a target is known well enough");
+    v.field("least_probability", least_probability, {0, 1}, "",
+            "of the class of the mapped object until then");
+    v.field("least_gain", least_gain, {0, 10}, "nat", "that a path must bring to be flown");
+    v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
+            "what a second of flight must bring beside it: the more, the shorter the mission");
+    v.field("at_once", at_once, {1, 8}, "",
+            "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
+    v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");
+    v.field("switch_gain", switch_gain, {0, 10}, "nat", "by which it must be better");
+    v.field("drift_m", drift_m, {0, 1}, "m",
+            "sd of the pose after 1 m of flight; it grows with the root of the way");
+    v.field("drift_counts", drift_counts, "", "whether it is part of what a view is worth");
+    v.field("most_drift_m", most_drift_m, {0.01, 10}, "m",
+            "sd of the pose since a target was first seen, beyond which it is looked at no more");
+    v.field("most_views", most_views, {1, 100}, "", "viewpoints flown to a target");
+  }
+};
+
+}  // namespace saker::active

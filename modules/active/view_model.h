@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "uncertainty/regions.h"
+#include "uncertainty/uncertainty.h"
+
+namespace saker::active {
+
+/// What active mapping asks of the fitted models.
+struct ViewModel {
+  /// What a measurement from this view is worth.
+  std::function<uncertainty::Prediction(objects::ClassId, const uncertainty::View&)> predict;
+  /// What all views of one object have in common.
+  std::function<Eigen::MatrixXd(objects::ClassId)> common;
+  /// Whether the view lies in the region of high confidence ∩ low geometric uncertainty.
+  std::function<bool(objects::ClassId, const uncertainty::View&)> in_region;
+};
+
+/// Throws Error where the model does not know a target class of the table.
+[[nodiscard]] ViewModel view_model_of(std::shared_ptr<const uncertainty::Model> model,
+                                      const uncertainty::RegionConfig& config,
+                                      const objects::ClassTable& table);
+
+}  // namespace saker::active

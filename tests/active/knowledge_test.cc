@@ -1,0 +1,128 @@
+#include "active/knowledge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "made_model.h"
+#include "made_street.h"
+
+namespace saker::active {
+namespace {
+
+using namespace made;
+using std::numbers::pi;
+
+constexpr double kRange = 10;  // m
+
+Target car_at_origin(double yaw = 0) {
+  Target target;
+  target.id = 0;
+  target.class_id = kVehicle;
+  target.extent = car(0, 0, yaw);
+  target.object_id = 0;
+  return target;
+}
+
+Eigen::Vector3d eye_at(double bearing, double range = kRange) {
+  return {range * std::cos(bearing), range * std::sin(bearing), 3};
+}
+
+Looks no_looks() { return Looks(24, 1.5); }
+
+PamsConfig config_with(double common = 0) {
+  PamsConfig config;
+  config.common_counts = common > 0;
+  return config;
+}
+
+Knowledge known(const Looks& looks, double yaw = 0, const PamsConfig& config = config_with()) {
+  return Knowledge(car_at_origin(yaw), looks, oblique_model(), config);
+}
+
+TEST(Looks, OfOnePlaceAreOneHoweverManyThereAre) {
+  Looks looks = no_looks();
+  for (int i = 0; i < 100; ++i) looks.add(eye_at(0.01 * (i % 3)), {0, 0, 0}, 0.5, i);
+  ASSERT_EQ(looks.all().size(), 1U);
+  EXPECT_NEAR(looks.all()[0].seconds, 50, 1e-9);
+  EXPECT_LT((looks.all()[0].eye - eye_at(0.01)).norm(), 0.01);
+  EXPECT_EQ(looks.first_m(), 0);
+  EXPECT_NEAR(looks.all()[0].flown_m, 49.5, 1e-9);
+}
+
+TEST(Looks, FromAllAroundAreNoMoreThanTheBins) {
+  Looks looks = no_looks();
+  for (int i = 0; i < 5000; ++i) looks.add(eye_at(0.37 * i, 4 + i % 12), {0, 0, 0}, 0.1, 0);
+  EXPECT_LE(looks.all().size(), 24U * 9);
+}
+
+TEST(Looks, WithoutTimeAreNone) {
+  Looks looks = no_looks();
+  looks.add(eye_at(0), {0, 0, 0}, 0, 0);
+  EXPECT_TRUE(looks.all().empty());
+}
+
+TEST(Knowledge, BeforeAnyLookIsThePrior) {
+  const PamsConfig config = config_with();
+  const Eigen::Matrix4d prior = prior_covariance(config, false);
+  EXPECT_TRUE(known(no_looks()).belief().covariance().isApprox(prior, 1e-12));
+  EXPECT_EQ(known(no_looks()).cells(), 0);
+}
+
+TEST(Knowledge, CellCountsAfterADwellAndOnceHoweverLongItIs) {
+  const PamsConfig config = config_with();
+  const double bearing = 0.3;
+  const uncertainty::View view = view_from(eye_at(bearing), car_at_origin(), oblique_model());
+  const int cell = predict(kVehicle, view).cell;
+  Looks looks = no_looks();
+  looks.add(eye_at(bearing), {0, 0, 0}, config.dwell_s - 0.1, 0);
+  EXPECT_FALSE(known(looks).counted(cell));
+  looks.add(eye_at(bearing), {0, 0, 0}, 0.2, 0);
+  EXPECT_TRUE(known(looks).counted(cell));
+  const double entropy = known(looks).belief().entropy();
+  looks.add(eye_at(bearing), {0, 0, 0}, 100, 0);
+  EXPECT_NEAR(known(looks).belief().entropy(), entropy, 1e-12);
+}
+
+TEST(Knowledge, AfterCellsIsTheInverseOfTheSumOfTheirInformation) {
+  Looks looks = no_looks();
+  double information = 4;  // of a prior of 0.5 m
+  for (const double bearing : {0.3, 1.3, -2.0}) {
+    looks.add(eye_at(bearing), {0, 0, 0}, 3, 0);
+    information += std::pow(view_sd(bearing), -2);
+  }
+  const Knowledge now = known(looks);
+  EXPECT_EQ(now.cells(), 3);
+  EXPECT_TRUE(now.belief().covariance().isApprox(Eigen::Matrix4d::Identity() / information, 1e-9));
+}
+
+TEST(Knowledge, ChangesWithTheEstimateOfTheHeading) {
+  Looks looks = no_looks();
+  looks.add(eye_at(pi / 4), {0, 0, 0}, 3, 0);
+  EXPECT_LT(known(looks, 0).belief().entropy(), known(looks, pi / 4).belief().entropy() - 1);
+}
+
+TEST(Knowledge, OfLaterLooksIsLessWhenDriftCounts) {
+  PamsConfig config = config_with();
+  config.drift_m = 0.05;
+  Looks looks = no_looks();
+  looks.add(eye_at(0.7), {0, 0, 0}, 3, 0);
+  looks.add(eye_at(2.3), {0, 0, 0}, 3, 30);
+  const Eigen::Matrix4d without = known(looks, 0, config).belief().covariance();
+  config.drift_counts = true;
+  const Eigen::Matrix4d with = known(looks, 0, config).belief().covariance();
+  EXPECT_GT(with(0, 0), without(0, 0));
+  EXPECT_NEAR(with(2, 2), without(2, 2), 1e-12);
+}
+
+TEST(Knowledge, HoldsWhatIsCommonWhereItCounts) {
+  PamsConfig config = config_with();
+  config.common_counts = true;
+  Looks looks = no_looks();
+  for (int i = 0; i < 12; ++i) looks.add(eye_at(i * pi / 6 + 0.1), {0, 0, 0}, 3, 0);
+  EXPECT_GT(known(looks, 0, config).belief().covariance()(2, 2), 0.05 * 0.05);
+}
+
+}  // namespace
+}  // namespace saker::active
