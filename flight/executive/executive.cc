@@ -45,7 +45,8 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                  lidar::mount_pose(config.autonomy.mount)),
       segmentation_(config.autonomy.segmentation, config.autonomy.objects),
       window_(config.autonomy.detection.window_s),
-      mapping_(config.autonomy.detection, config.autonomy.slam, config.autonomy.objects),
+      mapping_(config.autonomy.detection, config.autonomy.slam, config.autonomy.objects,
+               autonomy::uncertainty_for(config.autonomy)),
       body_pose_(config.autonomy.body_pose, lidar::mount_pose(config.autonomy.mount)),
       planning_(config.autonomy.planning, config.autonomy.active, config.autonomy.motion,
                 config.autonomy.objects, input.prior, config.autonomy.mission.height_m),
@@ -157,7 +158,7 @@ double Executive::age_ms(Time stamp) const {
 
 void Executive::save(const std::filesystem::path& out) {
   const slam::Slam& slam = mapping_.slam();
-  const objects::ObjectMap map = slam.map_with_covariance().map;
+  const objects::ObjectMap map = mapping_.map_with_covariance();
   objects::write_map(out / "map.json", map, config_.autonomy.objects);
   objects::write_map(out / "map.smap", map, config_.autonomy.objects);
   std::string world, odom;

@@ -2,6 +2,7 @@
 
 #include "active/active.h"
 #include "autonomy/body_pose.h"
+#include "autonomy/fitted_noise.h"
 #include "autonomy/guidance.h"
 #include "autonomy/local_checker.h"
 #include "autonomy/mission.h"
@@ -60,6 +61,7 @@ struct Config {
   segmentation::SegmentationConfig segmentation;
   detection::DetectionConfig detection;
   slam::SlamConfig slam;
+  UncertaintyConfig uncertainty;
   RateConfig rates;
   lidar::MountConfig mount;
   StandstillConfig standstill;
@@ -81,6 +83,7 @@ struct Config {
     v.group("segmentation", segmentation, "range-image network");
     v.group("detection", detection, "virtual sensors: ground, vehicles, trunks and poles");
     v.group("slam", slam, "object SLAM");
+    v.group("uncertainty", uncertainty, "what measurements are worth");
     v.group("rates", rates, "how often the stages run");
     v.group("mount", mount, "where the lidar is on the body: T_body_lidar");
     v.group("standstill", standstill, "when odometry begins in flight");
@@ -96,5 +99,13 @@ struct Config {
     v.group("local_checker", local_checker, "the collision checker in lockstep");
   }
 };
+
+/// The fitted model, null where nothing in the configuration needs one. Throws Error on a file that
+/// is missing or not valid.
+[[nodiscard]] inline std::shared_ptr<const uncertainty::Model> uncertainty_for(
+    const Config& config) {
+  if (config.slam.measurement_noise == slam::NoiseSource::fixed) return nullptr;
+  return load_uncertainty(config.uncertainty, config.objects);
+}
 
 }  // namespace saker::autonomy

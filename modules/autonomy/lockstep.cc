@@ -19,6 +19,7 @@ Lockstep::Lockstep(const Config& config, int threads, core::Timings& timings)
     : config_(config),
       timings_(timings),
       odometry_(config.odometry),
+      noise_(config.slam, uncertainty_for(config)),
       slam_(config.slam, config.objects),
       segmentation_schedule_(config.rates.segmentation_hz),
       slam_schedule_(config.rates.slam_hz),
@@ -39,6 +40,7 @@ LockstepResult Lockstep::run(lidar::ScanSource& source, LockstepObserver& observ
     result.T_world_lidar.push_back(slam_.corrected(scan.stamp, scan.T_odom_lidar));
   }
   result.map = slam_.map_with_covariance().map;
+  noise_.add_common(result.map);
   result.keyframes = static_cast<int>(slam_.keyframes().size());
   return result;
 }
@@ -95,6 +97,8 @@ void Lockstep::finish_cycles(std::size_t most_pending, LockstepObserver& observe
     Cycle& cycle = pending_.front();
     cycle.input.detections = cycle.detections.get();
     observer.on_detections(cycle.input.detections);
+    cycle.input.detections =
+        noise_.applied(std::move(cycle.input.detections), cycle.input.T_odom_lidar.linear());
     timings_.time("slam", [&] {
       return slam_.update(cycle.input, core::Budget::iterations(config_.slam.graph.iterations));
     });

@@ -86,6 +86,7 @@ class Lockstep {
   Config config_;
   core::Timings& timings_;
   odometry::Odometry odometry_;
+  FittedNoise noise_;
   slam::Slam slam_;
   Schedule segmentation_schedule_;
   Schedule slam_schedule_;

@@ -26,7 +26,7 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       ingestion_(config.odometry, config.standstill, sensor, lidar::mount_pose(config.mount)),
       body_pose_(config.body_pose, lidar::mount_pose(config.mount)),
       window_(config.detection.window_s),
-      mapping_(config.detection, config.slam, config.objects),
+      mapping_(config.detection, config.slam, config.objects, uncertainty_for(config)),
       planning_(config.planning, config.active, config.motion, config.objects, prior,
                 config.mission.height_m),
       guidance_(config.guidance),
@@ -235,7 +235,7 @@ void MissionLockstep::send_trajectory() {
 MissionResult MissionLockstep::finish() {
   if (last_map_.valid()) last_map_.wait();
   const slam::Slam& slam = mapping_.slam();
-  result_.map = slam.map_with_covariance().map;
+  result_.map = mapping_.map_with_covariance();
   for (std::size_t i = 0; i < result_.scans.size(); ++i) {
     const ScanRecord& scan = result_.scans[i];
     result_.T_world_lidar.push_back(slam.corrected(scan.stamp, scan.T_odom_lidar));

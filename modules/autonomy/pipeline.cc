@@ -99,8 +99,11 @@ void LabelledWindow::add(detection::LabelledScan scan) {
 }
 
 Mapping::Mapping(const detection::DetectionConfig& detection, const slam::SlamConfig& slam,
-                 const objects::ClassTable& table)
-    : iterations_(slam.graph.iterations), detection_(detection, table), slam_(slam, table) {}
+                 const objects::ClassTable& table, std::shared_ptr<const uncertainty::Model> model)
+    : iterations_(slam.graph.iterations),
+      detection_(detection, table),
+      noise_(slam, std::move(model)),
+      slam_(slam, table) {}
 
 std::shared_ptr<const MapSnapshot> Mapping::cycle(std::span<const detection::LabelledScan> window,
                                                   const Matrix6d& motion_covariance) {
@@ -109,12 +112,19 @@ std::shared_ptr<const MapSnapshot> Mapping::cycle(std::span<const detection::Lab
   const detection::LabelledScan& newest = window.back();
   snapshot->detections = detection_.detect(window);
   snapshot->update =
-      slam_.update({newest.stamp, newest.T_odom_lidar, motion_covariance, snapshot->detections},
+      slam_.update({newest.stamp, newest.T_odom_lidar, motion_covariance,
+                    noise_.applied(snapshot->detections, newest.T_odom_lidar.linear())},
                    core::Budget::iterations(iterations_));
   snapshot->stamp = newest.stamp;
   snapshot->map = slam_.map();
   snapshot->T_world_odom = slam_.T_world_odom();
   return snapshot;
+}
+
+objects::ObjectMap Mapping::map_with_covariance() const {
+  objects::ObjectMap map = slam_.map_with_covariance().map;
+  noise_.add_common(map);
+  return map;
 }
 
 }  // namespace saker::autonomy

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/fitted_noise.h"
 #include "autonomy/open_beams.h"
 #include "autonomy/plant.h"
 #include "autonomy/standstill.h"
@@ -104,16 +105,18 @@ struct MapSnapshot {
   Time stamp = 0;
   objects::ObjectMap map;  ///< in `world`
   SE3 T_world_odom = SE3::Identity();
-  objects::Detections detections;  ///< lidar frame at `stamp`
+  objects::Detections detections;  ///< as measured, lidar frame at `stamp`
   slam::SlamUpdate update;
 };
 
-/// Labelled scans of the last seconds → detections → SLAM.
+/// Labelled scans of the last seconds → detections → fitted noise → SLAM.
 class Mapping {
  public:
-  /// Throws Error on an invalid value.
+  /// \param model what measurements are worth; may be null where the noise is fixed. Throws Error
+  /// on an invalid value.
   Mapping(const detection::DetectionConfig& detection, const slam::SlamConfig& slam,
-          const objects::ClassTable& table);
+          const objects::ClassTable& table,
+          std::shared_ptr<const uncertainty::Model> model = nullptr);
 
   /// One cycle at the window's newest scan; nothing when there is none.
   [[nodiscard]] std::shared_ptr<const MapSnapshot> cycle(
@@ -121,9 +124,13 @@ class Mapping {
 
   [[nodiscard]] const slam::Slam& slam() const { return slam_; }
 
+  /// The objects' covariances are the graph's and what all views of one have in common.
+  [[nodiscard]] objects::ObjectMap map_with_covariance() const;
+
  private:
   int iterations_;
   detection::Detection detection_;
+  FittedNoise noise_;
   slam::Slam slam_;
 };
 

@@ -1,10 +1,10 @@
 #include "segmentation/segmentation.h"
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <vector>
 
+#include "core/config_folder.h"
 #include "core/error.h"
 #include "segmentation/sidecar.h"
 
@@ -13,16 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> config_folders() {
-  std::vector<fs::path> folders;
-  if (const char* given = std::getenv("SAKER_CONFIG_DIR")) folders.emplace_back(given);
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) folders.push_back(program.parent_path() / "../../../configs");
-  folders.emplace_back(SAKER_CONFIG_DIR);
-  return folders;
-}
-
 std::string read_bytes(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error("cannot read model " + file.string());
@@ -30,7 +20,7 @@ std::string read_bytes(const fs::path& file) {
 }
 
 Network load(const SegmentationConfig& config, const objects::ClassTable& table) {
-  const fs::path file = find_model(config.model);
+  const fs::path file = core::find_in_configs(config.model, "segmentation.model");
   const fs::path description = fs::path(file).replace_extension(".yaml");
   const Sidecar sidecar = read_sidecar(description);
   const std::string weights = read_bytes(file);
@@ -39,17 +29,6 @@ Network load(const SegmentationConfig& config, const objects::ClassTable& table)
 }
 
 }  // namespace
-
-fs::path find_model(const std::string& model) {
-  if (fs::is_regular_file(model)) return model;
-  std::string looked = model;
-  for (const fs::path& folder : config_folders()) {
-    const fs::path file = (folder / model).lexically_normal();
-    if (fs::is_regular_file(file)) return file;
-    if (looked.find(file.string()) == std::string::npos) looked += ", " + file.string();
-  }
-  throw Error("segmentation.model: no such file: looked for " + looked);
-}
 
 Segmentation::Segmentation(const SegmentationConfig& config, const objects::ClassTable& table)
     : config_(core::checked(config, "segmentation")), network_(load(config_, table)) {}

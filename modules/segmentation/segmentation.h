@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "core/config.h"
@@ -23,11 +22,6 @@ struct SegmentationConfig {
         "weights (ONNX), with their description beside them (.yaml); as given, else in configs/");
   }
 };
-
-/// Where the weights are: the path as given, else below the configuration folder (SAKER_CONFIG_DIR
-/// in the environment, the repository's configs/ beside the build's programs, or that of the
-/// build). Throws Error that names where it was looked for.
-[[nodiscard]] std::filesystem::path find_model(const std::string& model);
 
 /// Stage 2: reads a scan (lidar; deskewed or not, organised or not, any number of beams), makes the
 /// class and its probability for every point (for detection).

@@ -73,6 +73,7 @@ void remember(Landmark& landmark, const Observation& observation) {
 
 /// Of the longer edge: the length, whichever way the cuboid was named.
 double length_sd(const objects::Measurement& measured) {
+  if (std::isfinite(measured.length_sd)) return measured.length_sd;
   const auto& size = std::get<Cuboid>(measured.model).size;
   const int longer = size.x() >= size.y() ? 0 : 1;
   return std::sqrt(measured.covariance(6 + longer, 6 + longer));

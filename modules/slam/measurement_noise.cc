@@ -40,4 +40,16 @@ Gaussian with_common_errors(const Gaussian& measured, const MeasurementNoiseConf
   return result;
 }
 
+Eigen::VectorXd common_variances(const Model& model, const MeasurementNoiseConfig& config) {
+  Eigen::VectorXd sd = Eigen::VectorXd::Zero(is_cuboid(model) ? 9 : 6);
+  if (is_cuboid(model)) {
+    sd.segment<2>(3).setConstant(config.common_place_m);
+    sd.segment<2>(6) << config.common_length_m, config.common_width_m;
+  } else {
+    sd.head<2>().setConstant(config.common_root_m);
+    sd[5] = config.common_radius_m;
+  }
+  return sd.cwiseAbs2();
+}
+
 }  // namespace saker::slam

@@ -9,6 +9,11 @@ struct MeasurementNoiseConfig {
   double covariance_scale = 2;
   double lean_deg = 3;
   double roof_m = 0.3;
+  double common_place_m = 0.15;
+  double common_length_m = 0.25;
+  double common_width_m = 0.08;
+  double common_root_m = 0.04;
+  double common_radius_m = 0.03;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -21,6 +26,15 @@ struct MeasurementNoiseConfig {
         "each side leans its own way");
     v.field("roof_m", roof_m, {0, 5}, "m",
             "sd of a vehicle's top over its bottom: from afar the roof is not seen");
+    v.field("common_place_m", common_place_m, {0, 10}, "m",
+            "sd of a vehicle's place along each axis that no number of windows takes away; this "
+            "and those below only widen the covariances that a map reports");
+    v.field("common_length_m", common_length_m, {0, 10}, "m",
+            "the same of its length: ends that nobody sees, shapes that are no box");
+    v.field("common_width_m", common_width_m, {0, 10}, "m", "the same of its width");
+    v.field("common_root_m", common_root_m, {0, 10}, "m",
+            "the same of a trunk's or pole's root along x and y");
+    v.field("common_radius_m", common_radius_m, {0, 10}, "m", "the same of its radius");
   }
 };
 
@@ -36,5 +50,11 @@ struct MeasurementNoiseConfig {
 [[nodiscard]] Gaussian with_common_errors(const Gaussian& measured,
                                           const MeasurementNoiseConfig& config,
                                           bool fitted = false);
+
+/// Variances of what all measurements of one object share, 9 of a cuboid or 6 of a cylinder in the
+/// order of its covariance: the object is no box and no cylinder, and parts of it stay hidden. The
+/// graph cannot know them: they seem to be the object's own size and place.
+[[nodiscard]] Eigen::VectorXd common_variances(const Model& model,
+                                               const MeasurementNoiseConfig& config);
 
 }  // namespace saker::slam

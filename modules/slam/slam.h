@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/budget.h"
@@ -18,6 +19,13 @@
 
 namespace saker::slam {
 
+/// Where the covariances of measurements come from: detection's own, or a model fitted to flights.
+enum class NoiseSource { fixed, fitted };
+
+[[nodiscard]] inline std::vector<std::string> enum_names(NoiseSource) {
+  return {"fixed", "fitted"};
+}
+
 struct SlamConfig {
   KeyframeConfig keyframes;
   AssociationConfig association;
@@ -25,6 +33,7 @@ struct SlamConfig {
   DuplicateConfig duplicates;
   GraphConfig graph;
   GroundMapConfig ground;
+  NoiseSource measurement_noise = NoiseSource::fixed;
   MeasurementNoiseConfig noise;
 
   template <class Visitor>
@@ -35,6 +44,9 @@ struct SlamConfig {
     v.group("duplicates", duplicates, "when two objects are one");
     v.group("graph", graph, "the optimisation");
     v.group("ground", ground, "the map's local ground planes");
+    v.field("measurement_noise", measurement_noise, "",
+            "of measurements: fitted to flights (uncertainty.model), by where they are taken from, "
+            "or fixed: what detection says");
     v.group("noise", noise, "what is added to the covariances of detection");
   }
 };

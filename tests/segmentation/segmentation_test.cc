@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/config_folder.h"
 #include "core/error.h"
 #include "made_scan.h"
 
@@ -86,7 +87,7 @@ class SpoiltModel : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder_);
-    const fs::path shipped = find_model(SegmentationConfig{}.model);
+    const fs::path shipped = core::find_in_configs(SegmentationConfig{}.model, "model");
     fs::copy_file(shipped, model_, fs::copy_options::overwrite_existing);
     std::ifstream in(fs::path(shipped).replace_extension(".yaml"));
     description_.assign(std::istreambuf_iterator<char>(in), {});

@@ -111,6 +111,16 @@ TEST(ViewCell, WhatWasForgottenNoLongerSharesTheWeight) {
   EXPECT_EQ(observation_weights(landmark), (std::vector<double>{1, 1}));
 }
 
+TEST(ViewCell, AFittedLengthDoesNotHideThatBothEndsWereSeen) {
+  objects::Measurement m;
+  m.class_probability = probability(kVehicle);
+  m.model = car(8, 0, 0);
+  m.covariance = 0.25 * Matrix9d::Identity();  // what a cell's windows err by
+  m.length_sd = 0.1;
+  const Candidate candidate{&m, {m.model, m.covariance}, m.model, 8, 0.9};
+  EXPECT_EQ(new_landmark(0, candidate, 0, kConfig).length_sd, 0.1);
+}
+
 TEST(ViewCell, MergedLandmarksShareTheirCells) {
   Landmark a = measured({{0, 2, 4.4}, {1, 2, 4.4}});
   absorb(a, measured({{1, 2, 4.6}, {1, 2, 4.6}, {2, 3, 4.4}}), kConfig);

@@ -1,0 +1,132 @@
+#include "autonomy/fitted_noise.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/config_folder.h"
+#include "core/error.h"
+#include "uncertainty/view.h"
+
+namespace saker::autonomy {
+namespace {
+
+using objects::Measurement;
+
+/// The planar part of a covariance replaced; nothing is known of how it goes with the rest.
+Eigen::MatrixXd with_planar(const Eigen::MatrixXd& covariance, const std::vector<int>& rows,
+                            const Eigen::MatrixXd& fitted) {
+  Eigen::MatrixXd result = covariance;
+  for (const int row : rows) {
+    result.row(row).setZero();
+    result.col(row).setZero();
+  }
+  result(rows, rows) = fitted;
+  return result;
+}
+
+/// Named so that x points to the likelier front: the side that it is seen from is told by that.
+void name_by_front(Measurement& m) {
+  if (!std::holds_alternative<objects::Cuboid>(m.model) || !(m.front_log_odds < 0)) return;
+  const slam::Gaussian turned = slam::turned(slam::Gaussian{m.model, m.covariance}, 2);
+  m.model = turned.model;
+  m.covariance = turned.covariance;
+  m.front_log_odds = -m.front_log_odds;
+}
+
+/// Columns: along the line of sight away from the lidar, to its left, up; from the levelled frame
+/// in which `place` is given.
+Eigen::Matrix3d sight_frame(const Eigen::Vector3d& place) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d away = Eigen::Vector3d(place.x(), place.y(), 0).normalized();
+  Eigen::Matrix3d frame;
+  frame << away, up.cross(away), up;
+  return frame;
+}
+
+void correct(Measurement& m, objects::Cuboid cuboid, const uncertainty::Prediction& fitted,
+             const Eigen::Matrix3d&) {
+  const Eigen::VectorXd& bias = fitted.bias;
+  const int longer = cuboid.size.x() >= cuboid.size.y() ? 6 : 7;
+  m.length_sd = std::sqrt(m.covariance(longer, longer));
+  cuboid.pose.translation() -= cuboid.pose.linear() * Eigen::Vector3d(bias[0], bias[1], 0);
+  cuboid.size.head<2>() -= bias.tail<2>();
+  m.covariance = with_planar(m.covariance, objects::planar_rows(m.model), fitted.covariance);
+  m.model = cuboid;
+}
+
+void correct(Measurement& m, objects::Cylinder cylinder, const uncertainty::Prediction& fitted,
+             const Eigen::Matrix3d& R_odom_lidar) {
+  const Eigen::Matrix3d B = R_odom_lidar.transpose() * sight_frame(R_odom_lidar * cylinder.root);
+  cylinder.root -= B * Eigen::Vector3d(fitted.bias[0], fitted.bias[1], 0);
+  Matrix6d J = Matrix6d::Identity();  // from the sight frame to the lidar's
+  J.topLeftCorner<3, 3>() = B;
+  const Eigen::MatrixXd in_sight = J.transpose() * m.covariance * J;
+  m.covariance = J * with_planar(in_sight, {0, 1}, fitted.covariance) * J.transpose();
+  m.model = cylinder;
+}
+
+/// Flown, made for this shape, and something is left of the object without the bias.
+bool fits(const uncertainty::Prediction& fitted, const objects::Model& model) {
+  if (fitted.extrapolated) return false;
+  const auto* cuboid = std::get_if<objects::Cuboid>(&model);
+  if (cuboid == nullptr) return fitted.bias.size() == 2;
+  return fitted.bias.size() == 4 && (cuboid->size.head<2>() - fitted.bias.tail<2>()).minCoeff() > 0;
+}
+
+void apply(const uncertainty::Model& model, const Eigen::Matrix3d& R_odom_lidar, Measurement& m) {
+  if (!model.knows(m.class_id)) return;
+  Measurement named = m;
+  name_by_front(named);
+  SE3 T_levelled_lidar = SE3::Identity();
+  T_levelled_lidar.linear() = R_odom_lidar;
+  const uncertainty::View view = uncertainty::view_of(
+      Eigen::Vector3d::Zero(), objects::transformed(T_levelled_lidar, named.model));
+  if (!(view.range > 0) || !std::isfinite(view.angle)) return;
+  const uncertainty::Prediction fitted = model.predict(m.class_id, view);
+  if (!fits(fitted, named.model)) return;
+  std::visit([&](const auto& shape) { correct(named, shape, fitted, R_odom_lidar); },
+             objects::Model(named.model));
+  named.view_cell = fitted.cell;
+  m = std::move(named);
+}
+
+}  // namespace
+
+std::shared_ptr<const uncertainty::Model> load_uncertainty(const UncertaintyConfig& config,
+                                                           const objects::ClassTable& table) {
+  const auto file = core::find_in_configs(config.model, "uncertainty.model");
+  return std::make_shared<const uncertainty::Model>(uncertainty::Model::load(file, table));
+}
+
+FittedNoise::FittedNoise(const slam::SlamConfig& config,
+                         std::shared_ptr<const uncertainty::Model> model)
+    : fixed_(config.noise) {
+  if (config.measurement_noise == slam::NoiseSource::fixed) return;
+  if (model == nullptr) throw Error("slam.measurement_noise: fitted, expected a fitted model");
+  model_ = std::move(model);
+}
+
+objects::Detections FittedNoise::applied(objects::Detections detections,
+                                         const Eigen::Matrix3d& R_odom_lidar) const {
+  if (model_ == nullptr) return detections;
+  for (Measurement& m : detections.measurements) apply(*model_, R_odom_lidar, m);
+  return detections;
+}
+
+Eigen::MatrixXd FittedNoise::common_of(const objects::MapObject& object) const {
+  Eigen::MatrixXd common = slam::common_variances(object.model, fixed_).asDiagonal();
+  if (model_ == nullptr || !model_->knows(object.class_id)) return common;
+  const std::vector<int> rows = objects::planar_rows(object.model);
+  Eigen::MatrixXd fitted = model_->common_covariance(object.class_id);
+  if (rows.size() == 2) fitted = 0.5 * fitted.trace() * Eigen::Matrix2d::Identity();
+  common(rows, rows) = fitted;
+  return common;
+}
+
+void FittedNoise::add_common(objects::ObjectMap& map) const {
+  for (objects::MapObject& object : map.objects) {
+    if (object.covariance.size() > 0) object.covariance += common_of(object);
+  }
+}
+
+}  // namespace saker::autonomy

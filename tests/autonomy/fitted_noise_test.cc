@@ -1,0 +1,216 @@
+#include "autonomy/fitted_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "autonomy/lockstep.h"
+#include "core/error.h"
+#include "made_model.h"
+
+namespace saker::autonomy {
+namespace {
+
+using namespace made;
+using objects::Cuboid;
+using objects::Cylinder;
+using objects::Measurement;
+
+slam::SlamConfig source(slam::NoiseSource noise) {
+  slam::SlamConfig config;
+  config.measurement_noise = noise;
+  return config;
+}
+
+const FittedNoise& fitted() {
+  static const FittedNoise noise(source(slam::NoiseSource::fitted), model());
+  return noise;
+}
+
+SE3 flat_pose(double x, double y, double z, double yaw) {
+  SE3 T = SE3::Identity();
+  T.linear() = core::so3_exp({0, 0, yaw});
+  T.translation() = Eigen::Vector3d(x, y, z);
+  return T;
+}
+
+/// A car ahead of the lidar, turned by `yaw`.
+Measurement car(double range, double yaw) {
+  Measurement m;
+  m.class_id = kVehicle;
+  m.model = Cuboid{flat_pose(range, 0, -2, yaw), {4.5, 1.8, 1.5}};
+  m.covariance = Vector9d::LinSpaced(0.01, 0.09).asDiagonal();
+  m.covariance(5, 8) = m.covariance(8, 5) = 0.02;
+  m.covariance(3, 6) = m.covariance(6, 3) = 0.01;
+  m.front_log_odds = 2;
+  return m;
+}
+
+Measurement trunk(const Eigen::Vector3d& root) {
+  Measurement m;
+  m.class_id = kTrunk;
+  m.model = Cylinder{root, Eigen::Vector3d::UnitZ(), 0.15, 3};
+  m.covariance = Vector6d::LinSpaced(0.01, 0.06).asDiagonal();
+  m.covariance(0, 3) = m.covariance(3, 0) = 0.005;
+  return m;
+}
+
+Measurement applied(const Measurement& m, const Eigen::Matrix3d& R_odom_lidar,
+                    const FittedNoise& noise = fitted()) {
+  objects::Detections detections;
+  detections.measurements = {m};
+  return noise.applied(detections, R_odom_lidar).measurements.front();
+}
+
+Measurement applied(const Measurement& m) { return applied(m, Eigen::Matrix3d::Identity()); }
+
+objects::MapObject mapped(const Measurement& m) {
+  objects::MapObject object;
+  object.class_id = m.class_id;
+  object.model = m.model;
+  object.covariance = m.covariance;
+  return object;
+}
+
+void expect_untouched(const Measurement& m, const FittedNoise& noise) {
+  const Measurement after = applied(m, Eigen::Matrix3d::Identity(), noise);
+  EXPECT_EQ(after.view_cell, -1);
+  EXPECT_EQ(after.covariance, m.covariance);
+  EXPECT_EQ(objects::place(after.model), objects::place(m.model));
+}
+
+uncertainty::Prediction expected(objects::ClassId id, double range, double angle) {
+  uncertainty::View view;
+  view.range = range;
+  view.angle = angle;
+  return model()->predict(id, view);
+}
+
+TEST(FittedNoise, TakesTheBiasOffAVehicle) {
+  const Measurement m = car(8, 0.3);
+  const auto fit = expected(kVehicle, 8, std::numbers::pi - 0.3);
+  const auto& before = std::get<Cuboid>(m.model);
+  const auto after = std::get<Cuboid>(applied(m).model);
+  const Eigen::Vector3d step = before.pose.inverse() * after.pose.translation();
+  EXPECT_NEAR(step.x(), -fit.bias[0], 1e-9);
+  EXPECT_NEAR(step.y(), -fit.bias[1], 1e-9);
+  EXPECT_NEAR(step.z(), 0, 1e-9);
+  EXPECT_NEAR(after.size.x(), 4.5 - fit.bias[2], 1e-9);
+  EXPECT_NEAR(after.size.y(), 1.8 - fit.bias[3], 1e-9);
+  EXPECT_EQ(after.size.z(), 1.5);
+  EXPECT_GT(fit.bias.cwiseAbs().minCoeff(), 0.01);
+}
+
+TEST(FittedNoise, ReplacesTheCovarianceOfPlaceAndSizeAndLeavesTheRest) {
+  const Measurement m = car(8, 0.3);
+  const auto fit = expected(kVehicle, 8, std::numbers::pi - 0.3);
+  const Eigen::MatrixXd P = applied(m).covariance;
+  const std::vector<int> plan = objects::planar_rows(m.model), rest = {0, 1, 2, 5, 8};
+  EXPECT_TRUE(P(plan, plan).isApprox(fit.covariance, 1e-9));
+  EXPECT_EQ(Eigen::MatrixXd(P(rest, rest)), Eigen::MatrixXd(m.covariance(rest, rest)));
+  EXPECT_EQ(P(plan, rest).norm(), 0);
+  EXPECT_EQ(applied(m).view_cell, fit.cell);
+  EXPECT_NEAR(applied(m).length_sd, std::sqrt(m.covariance(6, 6)), 1e-12);
+  EXPECT_GE(fit.cell, 0);
+}
+
+TEST(FittedNoise, AVehicleMeasuredBackToFrontIsTheSame) {
+  Measurement m = car(8, 0.3 + std::numbers::pi);
+  m.front_log_odds = -2;
+  const Measurement a = applied(car(8, 0.3)), b = applied(m);
+  EXPECT_TRUE(std::get<Cuboid>(a.model).pose.isApprox(std::get<Cuboid>(b.model).pose, 1e-9));
+  EXPECT_TRUE(a.covariance.isApprox(b.covariance, 1e-9));
+  EXPECT_EQ(a.view_cell, b.view_cell);
+  EXPECT_EQ(b.front_log_odds, 2);
+}
+
+TEST(FittedNoise, ATrunkIsPulledAlongTheLevelLineOfSight) {
+  // The lidar rolls and pitches; in odom the trunk stands 3 m ahead, 4 m to the left, 2 m below.
+  const Eigen::Matrix3d R_odom_lidar = core::so3_exp({0.2, -0.1, 0.5});
+  const Eigen::Vector3d in_odom(3, 4, -2);
+  const Measurement after = applied(trunk(R_odom_lidar.transpose() * in_odom), R_odom_lidar);
+  const auto fit = expected(kTrunk, 5, 0);
+  const Eigen::Vector3d along(0.6, 0.8, 0), left(-0.8, 0.6, 0);
+  const Eigen::Vector3d step = R_odom_lidar * objects::place(after.model) - in_odom;
+  EXPECT_NEAR(step.dot(along), -fit.bias[0], 1e-9);
+  EXPECT_NEAR(step.dot(left), -fit.bias[1], 1e-9);
+  EXPECT_NEAR(step.z(), 0, 1e-9);
+  const Eigen::Matrix3d P =
+      R_odom_lidar * after.covariance.topLeftCorner<3, 3>() * R_odom_lidar.transpose();
+  EXPECT_NEAR(along.dot(P * along), fit.covariance(0, 0), 1e-9);
+  EXPECT_NEAR(left.dot(P * left), fit.covariance(1, 1), 1e-9);
+  EXPECT_NEAR(after.covariance(5, 5), 0.06, 1e-12) << "the radius is as detection says";
+}
+
+TEST(FittedNoise, LeavesAloneWhatWasNotFlown) {
+  expect_untouched(car(30, 0.3), fitted());
+  expect_untouched(trunk({25, 0, -2}), fitted());
+}
+
+TEST(FittedNoise, LeavesAloneAClassThatTheModelDoesNotKnow) {
+  Measurement pole = trunk({5, 0, -2});
+  pole.class_id = kPole;
+  expect_untouched(pole, fitted());
+}
+
+TEST(FittedNoise, LeavesAloneWhatWouldHaveNoSizeLeft) {
+  Measurement m = car(8, 0);
+  std::get<Cuboid>(m.model).size.y() = 0.05;
+  expect_untouched(m, fitted());
+}
+
+TEST(FittedNoise, FixedNoiseChangesNoMeasurementAndAddsWhatIsConfigured) {
+  const FittedNoise fixed(source(slam::NoiseSource::fixed), model());
+  expect_untouched(car(8, 0.3), fixed);
+  objects::ObjectMap map;
+  map.objects = {mapped(car(8, 0)), mapped(trunk({5, 0, -2}))};
+  const objects::ObjectMap before = map;
+  fixed.add_common(map);
+  const slam::MeasurementNoiseConfig config;
+  const Eigen::MatrixXd of_car = map.objects[0].covariance - before.objects[0].covariance;
+  EXPECT_NEAR(of_car(4, 4), config.common_place_m * config.common_place_m, 1e-12);
+  EXPECT_NEAR(of_car(6, 6), config.common_length_m * config.common_length_m, 1e-12);
+  EXPECT_NEAR(of_car(7, 7), config.common_width_m * config.common_width_m, 1e-12);
+  const Eigen::MatrixXd of_trunk = map.objects[1].covariance - before.objects[1].covariance;
+  EXPECT_NEAR(of_trunk(0, 0), config.common_root_m * config.common_root_m, 1e-12);
+  EXPECT_NEAR(of_trunk(5, 5), config.common_radius_m * config.common_radius_m, 1e-12);
+  EXPECT_EQ(of_trunk(3, 3), 0);
+}
+
+TEST(FittedNoise, ReportedCovarianceIsTheGraphsAndTheCommonPart) {
+  objects::ObjectMap map;
+  map.objects = {mapped(car(8, 0.3)), mapped(trunk({5, 0, -2})), mapped(car(3, 0))};
+  map.objects[2].covariance.resize(0, 0);
+  const objects::ObjectMap before = map;
+  fitted().add_common(map);
+  const Eigen::MatrixXd of_car = map.objects[0].covariance - before.objects[0].covariance;
+  EXPECT_NEAR(of_car(3, 3), 0.05 * 0.05, 1e-12);
+  EXPECT_NEAR(of_car(6, 6), 0.12 * 0.12, 1e-12);
+  EXPECT_NEAR(of_car(7, 7), 0.05 * 0.05, 1e-12);
+  EXPECT_EQ(of_car(8, 8), 0);
+  const Eigen::MatrixXd of_trunk = map.objects[1].covariance - before.objects[1].covariance;
+  EXPECT_NEAR(of_trunk(0, 0), 0.5 * (0.03 * 0.03 + 0.01 * 0.01), 1e-12);
+  EXPECT_NEAR(of_trunk(1, 1), of_trunk(0, 0), 1e-12);
+  EXPECT_EQ(of_trunk(2, 2), 0);
+  EXPECT_GT(of_trunk(5, 5), 0) << "of the radius the model knows nothing";
+  EXPECT_EQ(map.objects[2].covariance.size(), 0);
+}
+
+TEST(FittedNoise, NeedsAModel) {
+  EXPECT_THROW(FittedNoise(source(slam::NoiseSource::fitted), nullptr), Error);
+  Config config;
+  config.slam.measurement_noise = slam::NoiseSource::fitted;
+  config.uncertainty.model = "models/none.yaml";
+  core::Timings timings;
+  try {
+    Lockstep lockstep(config, 1, timings);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("uncertainty.model: no such file"), std::string::npos) << text;
+    EXPECT_NE(text.find("models/none.yaml"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace saker::autonomy
