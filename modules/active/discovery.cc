@@ -118,10 +118,12 @@ void Discovery::dismiss_absent() {
   }
 }
 
-/// In range, and nothing but what is mapped stands there.
+/// Nothing but what is mapped stands there, seen from so near that whatever is in the target's gate
+/// is in range: it would be mapped.
 bool Discovery::nothing_else_at(const Eigen::Vector3d& place) const {
   const DiscoveryConfig& config = config_.discovery;
-  if (!grid_ || (place - body_).head<2>().norm() > config_.view.farthest_m) return false;
+  const double near = config_.view.farthest_m - config_.targets.gate_m;
+  if (!grid_ || (place - body_).head<2>().norm() > near) return false;
   const int reach = static_cast<int>(config.around_m / config.around_step_m);
   int columns = 0, free = 0;
   for (int y = -reach; y <= reach; ++y) {

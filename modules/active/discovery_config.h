@@ -76,16 +76,14 @@ struct DiscoveryConfig {
     v.field("moved_m", moved_m, {0.05, 20}, "m", "by which its place may change: estimates settle");
     v.field("same_m", same_m, {0, 20}, "m",
             "nearer to a target's object it is the same mapped twice: half of a parking place");
-    v.field(
-        "around_m", around_m, {0.5, 20}, "m",
-        "about a target's place nothing stands: then it is not there. About half a vehicle; one "
-        "that is farther away is found as one outside the prior map");
+    v.field("around_m", around_m, {0.5, 20}, "m",
+            "about a target's place nothing stands: then it is not there. About half a vehicle");
     v.field("around_step_m", around_step_m, {0.1, 5}, "m",
             "between the columns that are looked at: two cells of the block");
     v.field("least_free", least_free, {0, 1}, "",
             "share of them that must be free or a mapped object's");
     v.field("absent_s", absent_s, {0, 600}, "s",
-            "for so long, in range, until it is dismissed: SLAM believes in an object by then");
+            "for so long, seen from near by, until it is dismissed: SLAM believes in it by then");
     v.group("sweep", sweep, "back and forth over the geofence");
   }
 };
