@@ -1,6 +1,9 @@
 #pragma once
 
+#include <spdlog/logger.h>
+
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -16,8 +19,10 @@ namespace saker::tools {
 /// and the comparison with the truth need.
 class MissionRecorder : public autonomy::MissionObserver {
  public:
-  MissionRecorder(simulation::SimulatedVehicle& vehicle, const std::string& name, int targets)
-      : vehicle_(vehicle), start_(vehicle.now()), progress_(name, targets) {}
+  /// \param progress  over the targets; none where several missions go side by side
+  MissionRecorder(simulation::SimulatedVehicle& vehicle, std::shared_ptr<spdlog::logger> log,
+                  core::Progress* progress)
+      : vehicle_(vehicle), start_(vehicle.now()), log_(std::move(log)), progress_(progress) {}
 
   void on_scan(const autonomy::IngestedScan& scan) override;
   void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override;
@@ -38,7 +43,8 @@ class MissionRecorder : public autonomy::MissionObserver {
 
   simulation::SimulatedVehicle& vehicle_;
   Time start_;
-  core::Progress progress_;
+  std::shared_ptr<spdlog::logger> log_;
+  core::Progress* progress_;
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;
   std::vector<StampedPose> true_poses_;
