@@ -14,7 +14,7 @@ mission:
 AT_ONCE = ("--set", "mission.preflight_s=1")
 LEFT = {"experiment.json", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
         "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
-        "truth.json"}
+        "truth.json", "viewpoints.csv"}
 
 
 class Experiment(ProgramTest):

@@ -31,6 +31,10 @@ void MissionRecorder::on_scan(const autonomy::IngestedScan& scan) {
   ++scans_;
 }
 
+void MissionRecorder::on_map(const autonomy::MapSnapshot& map) {
+  viewpoints_.take(map.stamp, map.map, truth_);
+}
+
 void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
                               const active::ActivePlan& plan) {
   if (progress_ != nullptr && report.targets > 0) {

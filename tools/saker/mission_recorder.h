@@ -11,6 +11,7 @@
 #include "autonomy/mission_lockstep.h"
 #include "core/progress.h"
 #include "saker/trajectory_truth.h"
+#include "saker/viewpoint_log.h"
 #include "simulation/simulated_vehicle.h"
 
 namespace saker::tools {
@@ -22,12 +23,19 @@ class MissionRecorder : public autonomy::MissionObserver {
   /// \param progress  over the targets; none where several missions go side by side
   MissionRecorder(simulation::SimulatedVehicle& vehicle, std::shared_ptr<spdlog::logger> log,
                   core::Progress* progress)
-      : vehicle_(vehicle), start_(vehicle.now()), log_(std::move(log)), progress_(progress) {}
+      : vehicle_(vehicle),
+        start_(vehicle.now()),
+        truth_(vehicle.true_map()),
+        log_(std::move(log)),
+        progress_(progress) {}
 
   void on_scan(const autonomy::IngestedScan& scan) override;
+  void on_map(const autonomy::MapSnapshot& map) override;
   void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override;
   void on_event(const autonomy::MissionEvent& event) override;
 
+  /// What was predicted of viewpoints, and what came of it.
+  [[nodiscard]] const ViewpointLog& viewpoints() const { return viewpoints_; }
   /// T_world_lidar as it truly was, at the stamps of the scans.
   [[nodiscard]] const std::vector<StampedPose>& true_poses() const { return true_poses_; }
   /// Points of all scans in `world`. \param T_world_lidar of the scans, after SLAM
@@ -43,6 +51,8 @@ class MissionRecorder : public autonomy::MissionObserver {
 
   simulation::SimulatedVehicle& vehicle_;
   Time start_;
+  objects::ObjectMap truth_;
+  ViewpointLog viewpoints_;
   std::shared_ptr<spdlog::logger> log_;
   core::Progress* progress_;
   std::uint32_t scans_ = 0;

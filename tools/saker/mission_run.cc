@@ -168,6 +168,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
 
   write_trajectories(result, recorder, out);
   write_maps(result, truth, site.prior, recorder, config.objects, out);
+  core::write_file(out / "viewpoints.csv", recorder.viewpoints().csv());
   core::write_file(out / "timings.csv", timings.csv());
   core::write_file(out / "results.json", results.dump(2) + "\n");
   return results;
