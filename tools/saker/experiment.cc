@@ -25,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kResults = "results.json";
+
 struct ExperimentOptions {
   std::vector<std::string> scenarios;
   std::vector<std::string> policies;  ///< empty: the configuration's
@@ -80,10 +82,11 @@ std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& 
   return jobs;
 }
 
-/// A site without room is an error before anything is flown.
-void check_sites(const std::vector<Job>& jobs) {
+/// A site without room is an error before anything is flown; where it was flown there was room.
+void check_sites(const std::vector<Job>& jobs, const CommonOptions& common) {
   std::set<std::pair<std::string, std::uint64_t>> checked;
   for (const Job& job : jobs) {
+    if (!common.force && fs::exists(fs::path(common.out) / job.folder / kResults)) continue;
     if (!checked.emplace(job.run.scenario, job.run.seed).second) continue;
     try {
       (void)simulation::build_mission_world(job.run.site, job.run.seed);
@@ -114,7 +117,7 @@ bool goes_on(const CommonOptions& common, const std::string& wanted) {
 
 /// results.json is the last file of a run: where it is, the run is finished.
 std::optional<Json> finished(const fs::path& folder) {
-  const fs::path file = folder / "results.json";
+  const fs::path file = folder / kResults;
   if (!fs::exists(file)) return std::nullopt;
   return Json::parse(core::read_file(file));
 }
@@ -170,13 +173,13 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
     options.policies = {active::enum_names(policy)[static_cast<std::size_t>(policy)]};
   }
   const std::vector<Job> jobs = jobs_of(options, common);
-  check_sites(jobs);
+  check_sites(jobs, common);
   const std::string wanted = manifest(options, common);
   CommonOptions outer = common;
   outer.force = common.force || goes_on(common, wanted);
   const OutputFolder out(outer);
   if (common.force) {
-    for (const Job& job : jobs) fs::remove(out.path() / job.folder / "results.json");
+    for (const Job& job : jobs) fs::remove(out.path() / job.folder / kResults);
   }
   core::write_file(out / "experiment.json", wanted);
 
