@@ -60,7 +60,7 @@ struct ScenarioEvent {
 enum class SiteKind {
   street,     ///< with parked vehicles, lamps and trees on one side, a car park on the other
   garage,     ///< a level of it: two aisles, bays on both sides, pillars, walls and a ceiling
-  dirt_road,  ///< through rough meadows with bushes: no trunk, pole or building
+  dirt_road,  ///< between ditches, through rough meadows with bushes: no trunk, pole or building
 };
 
 [[nodiscard]] inline std::vector<std::string> enum_names(SiteKind) {

@@ -19,8 +19,9 @@ constexpr double kPillarRoom = 0.3;
 constexpr double kFoundation = 0.2;
 
 // A dirt road.
-constexpr double kBushesPer100m2 = 0.25;
-constexpr double kMeadow = 48;       ///< m to either side
+constexpr double kBushesPer100m2 = 1;
+constexpr double kDitch = 1.3;       ///< m, from its edge to its middle
+constexpr double kMeadow = 46;       ///< m to either side
 constexpr double kBushesReach = 30;  ///< m of it: farther ones are seen from no target
 
 /// A world with nothing but its ground, and the streams of random numbers of those who build on.
@@ -149,8 +150,11 @@ MissionSite build_garage(const MissionSiteConfig& config, std::uint64_t seed) {
 CrossSection dirt_road_section(const Palette& p, core::Rng& rng) {
   const double half_road = rng.uniform(2.2, 2.8);
   const auto side = [&]() -> std::vector<Strip> {
+    const double steep = rng.uniform(0.15, 0.4);
     return {{half_road, p.yard, Use::none, 0, -0.02},
             {rng.uniform(2.3, 2.8), p.grass, Use::parallel_parking, 0, -0.02},
+            {kDitch, p.meadow, Use::none, 0, -steep},
+            {kDitch, p.meadow, Use::none, 0, steep},
             {kMeadow, p.meadow, Use::none, 0, rng.normal(0, 0.02)}};
   };
   CrossSection section;
@@ -181,14 +185,14 @@ MissionSite build_dirt_road(const MissionSiteConfig& config, std::uint64_t seed)
   shape.half_length = config.street_m / 2;
   shape.grade = std::clamp(plan.shape_rng.normal(0, 0.015), -0.03, 0.03);
   shape.relief_m = plan.shape_rng.uniform(0.15, 0.35);
-  shape.roughness_m = plan.shape_rng.uniform(0.02, 0.04);
+  shape.roughness_m = plan.shape_rng.uniform(0.03, 0.05);
   Terrain terrain(shape, dirt_road_section(plan.palette, plan.shape_rng), plan.shape_rng);
   terrain.draw(plan.world);
   Site site({plan.world, plan.palette, plan.flora, terrain, plan.population, plan.site_rng});
   populate(site);
   const auto& strips = terrain.section().left;
-  constexpr double kFree = 3;  // m beside the vehicles: what stands there hides them
-  scatter_bushes(site, strips[0].width + strips[1].width + kFree);
+  constexpr double kFree = 1;  // m beyond the ditch: bushes hide vehicles
+  scatter_bushes(site, strips[0].width + strips[1].width + 2 * kDitch + kFree);
   return {finished(std::move(plan), std::move(terrain))};
 }
 
