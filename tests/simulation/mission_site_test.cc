@@ -101,7 +101,8 @@ TEST(MissionSite, MoreLampsAndTreesAreMoreInTheTruth) {
     config.site.style.trees = factor;
     int sum = 0;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      for (const TrueObject& object : build_mission_world(config, seed).world().objects) {
+      const MissionWorld site = build_mission_world(config, seed);
+      for (const TrueObject& object : site.world().objects) {
         sum += object.class_name == of_class;
       }
     }
