@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "simulation/flight_path.h"
+#include "simulation/mission_config.h"
 #include "simulation/world_builder.h"
 
 namespace saker::simulation {
@@ -25,7 +26,8 @@ struct FlightWorld {
 
 /// A street with a car park beside it, for a flight: all five kinds of cars, trees and lamps along
 /// it.
-[[nodiscard]] FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed);
+[[nodiscard]] FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed,
+                                             const SiteStyle& style = {});
 
 /// One flight into the folder: flight.pcap and flight.json (the capture), truth.json (objects in
 /// the `world` frame: the levelled lidar frame at the first scan's stamp), trajectory_truth.txt

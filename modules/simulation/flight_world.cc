@@ -30,12 +30,13 @@ std::vector<Strip> car_park(const Palette& p, core::Rng& rng) {
           {14, p.yard, Use::buildings, 0, 0}};
 }
 
-Population flight_population(const FlightConfig& config, core::Rng& rng) {
+Population flight_population(const FlightConfig& config, const SiteStyle& style, core::Rng& rng) {
   Population p;
   p.parked = config.parked_share;
   p.traffic = 0;
-  p.lamp_spacing = rng.uniform(13, 18);
-  p.tree_spacing = rng.uniform(8, 12);
+  p.lamp_spacing = rng.uniform(13, 18) / style.lamps;
+  p.tree_spacing = rng.uniform(8, 12) / style.trees;
+  p.clutter = style.clutter;
   p.street_trees = true;
   p.heavy = 0;
   p.every_kind = true;
@@ -61,13 +62,15 @@ Driver add_driver(Site& site, int number, const FlightConfig& config, core::Rng&
 
 }  // namespace
 
-FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed) {
+FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed,
+                               const SiteStyle& style) {
   const core::Rng base(seed);
   core::Rng shape_rng = base.fork(0);
   core::Rng flora_rng = base.fork(1);
   core::Rng site_rng = base.fork(2);
   World world;
-  const Palette palette = make_palette(world, shape_rng);
+  Palette palette = make_palette(world, shape_rng);
+  palette.paint = style.paint;
   const Flora flora = grow_flora(world, palette, flora_rng);
   CrossSection section;
   section.left = street(palette, shape_rng);
@@ -77,7 +80,7 @@ FlightWorld build_flight_world(const FlightConfig& config, std::uint64_t seed) {
   shape.half_length = std::max(40.0, 0.5 * config.speed_mps * config.duration_s + 12);
   Terrain terrain(shape, std::move(section), shape_rng);
   terrain.draw(world);
-  Site site({world, palette, flora, terrain, flight_population(config, site_rng), site_rng});
+  Site site({world, palette, flora, terrain, flight_population(config, style, site_rng), site_rng});
   populate(site);
   core::Rng traffic_rng = base.fork(3);
   std::vector<Driver> drivers;

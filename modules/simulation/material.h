@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/rng.h"
 
@@ -15,6 +17,14 @@ struct Material {
   float transmission = 0;     ///< probability that the beam goes on behind it (glass, wire, leaves)
   float depth = 0;            ///< m, blades or leaves that stand up from it and answer first
 };
+
+/// What the vehicles of a world are painted.
+enum class Paint {
+  any,    ///< from black to white, as the fleet is
+  black,  ///< all of them: few returns
+};
+
+[[nodiscard]] inline std::vector<std::string> enum_names(Paint) { return {"any", "black"}; }
 
 /// SemanticKITTI's ids.
 enum Label : std::uint16_t {

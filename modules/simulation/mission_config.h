@@ -6,6 +6,7 @@
 #include "lidar/mount.h"
 #include "simulation/flight_controller.h"
 #include "simulation/instruments.h"
+#include "simulation/material.h"
 #include "simulation/scanner.h"
 #include "simulation/sensor_config.h"
 #include "simulation/wind.h"
@@ -72,8 +73,37 @@ struct PriorErrorsConfig {
   }
 };
 
-/// The street with its car park, and what is in it.
+enum class SiteKind {
+  street,     ///< with parked vehicles, lamps and trees on one side, a car park on the other
+  garage,     ///< a level of it: two aisles, bays on both sides, pillars, walls and a ceiling
+  dirt_road,  ///< between ditches, through rough meadows with bushes: no trunk, pole or building
+};
+
+[[nodiscard]] inline std::vector<std::string> enum_names(SiteKind) {
+  return {"street", "garage", "dirt_road"};
+}
+
+/// How a site differs from others of its kind.
+struct SiteStyle {
+  Paint paint = Paint::any;
+  double lamps = 1;
+  double trees = 1;
+  double clutter = 1;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("paint", paint, "", "of all vehicles: any, or black, which returns little");
+    v.field("lamps", lamps, {0.1, 10}, "", "of a street: factor on their number");
+    v.field("trees", trees, {0.1, 3}, "", "of a street: factor on the number of those in rows");
+    v.field("clutter", clutter, {0, 10}, "",
+            "of a street: factor on signs, bins, people, bicycles");
+  }
+};
+
+/// Where it is flown, and what is there.
 struct MissionSiteConfig {
+  SiteKind kind = SiteKind::street;
+  SiteStyle style;
   double street_m = 80;
   double parked_share = 0.35;
   int targets = 8;
@@ -84,23 +114,29 @@ struct MissionSiteConfig {
   PriorErrorsConfig prior_errors;
   double fence_margin_m = 2;
   double fence_height_m = 12;
+  double ceiling_m = 3.6;
 
   template <class Visitor>
   void visit(Visitor& v) {
+    v.field("kind", kind, "", "street, garage or dirt_road");
+    v.group("style", style, "how it differs from others of its kind");
     v.field("street_m", street_m, {80, 600}, "m", "length of the world");
     v.field("parked_share", parked_share, {0, 1}, "", "of the parking places that are taken");
     v.field("targets", targets, {1, 100}, "",
             "vehicles that are to be mapped: those nearest to take-off");
     v.field("obstacles", obstacles, {0, 40}, "",
-            "posts, walls and hedges, each between two targets; higher than one flies");
-    v.field("moving_vehicles", moving_vehicles, {0, 20}, "", "that drive up and down the street");
+            "posts, walls and hedges, each between two targets; higher than one flies; none in a "
+            "garage");
+    v.field("moving_vehicles", moving_vehicles, {0, 20}, "", "that drive up and down a street");
     v.field("prior_sd_m", prior_sd_m, {0, 20}, "m",
             "error of the prior map's places, along x and y each");
     v.field("no_prior", no_prior, "", "nothing is said of the targets beforehand but the fence");
     v.group("prior_errors", prior_errors, "what else is wrong with the prior map");
     v.field("fence_margin_m", fence_margin_m, {0, 100}, "m",
             "of the geofence about targets and take-off");
-    v.field("fence_height_m", fence_height_m, {1, 200}, "m", "of the geofence over the take-off");
+    v.field("fence_height_m", fence_height_m, {1, 200}, "m",
+            "of the geofence over the take-off; in a garage a metre below the ceiling at most");
+    v.field("ceiling_m", ceiling_m, {3, 10}, "m", "of a garage, over its floor");
   }
 };
 

@@ -6,28 +6,20 @@
 #include "core/error.h"
 #include "simulation/collision.h"
 #include "simulation/mission_obstacles.h"
+#include "simulation/mission_site.h"
 #include "simulation/prior_errors.h"
 #include "simulation/truth.h"
 
 namespace saker::simulation {
 namespace {
 
-constexpr double kBeyond = 12;          ///< m of street beyond what is populated, as for flights
 constexpr double kTakeoffRoom = 2.0;    ///< m around the take-off column to anything
 constexpr double kTakeoffHeight = 8.0;  ///< m of it
+constexpr double kUnderCeiling = 1.0;   ///< m: the vehicle, and what it keeps from things
 constexpr int kTakeoffTries = 200;
 constexpr int kWorldTries = 20;
 constexpr double kUnderground = -1000;            ///< m, where inserted obstacles wait
 const Eigen::Vector3d kRoughSize(4.5, 1.8, 1.5);  ///< m, of any car
-
-FlightConfig street_of(const MissionSiteConfig& site) {
-  FlightConfig flight;
-  flight.speed_mps = 1;
-  flight.duration_s = site.street_m - 2 * kBeyond;
-  flight.parked_share = site.parked_share;
-  flight.moving_vehicles = site.moving_vehicles;
-  return flight;
-}
 
 int parked_vehicles(const World& world) {
   return static_cast<int>(
@@ -36,55 +28,46 @@ int parked_vehicles(const World& world) {
 }
 
 /// The first of the seed's worlds that has room and vehicles enough.
-FlightWorld built(const MissionSiteConfig& site, const core::Rng& rng) {
+MissionSite built(const MissionSiteConfig& site, const core::Rng& rng) {
   int most = 0;
   for (int attempt = 0; attempt < kWorldTries; ++attempt) {
     core::Rng draw = rng.fork(static_cast<std::uint64_t>(attempt));
-    FlightWorld flight =
-        build_flight_world(street_of(site), static_cast<std::uint64_t>(draw.index(1 << 30)));
-    const int vehicles = parked_vehicles(flight.built.world);
-    if (vehicles >= site.targets) return flight;
+    MissionSite candidate =
+        build_mission_site(site, static_cast<std::uint64_t>(draw.index(1 << 30)));
+    const int vehicles = parked_vehicles(candidate.flight.built.world);
+    if (vehicles >= site.targets) return candidate;
     most = std::max(most, vehicles);
   }
   throw Error("mission.site.targets: " + std::to_string(site.targets) + ", but only " +
               std::to_string(most) + " vehicles are parked: raise parked_share or street_m");
 }
 
-/// Middle of the car park's aisle: the second strip of the right side that nobody uses.
-double aisle_d(const CrossSection& section) {
-  double d = 0;
-  int unused = 0;
-  for (const Strip& strip : section.right) {
-    if (strip.use == Use::none && ++unused == 2) return -(d + strip.width / 2);
-    d += strip.width;
-  }
-  return 0;
-}
-
-bool is_free_column(const RayCaster& caster, const Eigen::Vector3d& foot,
+bool is_free_column(const RayCaster& caster, const Eigen::Vector3d& foot, double height,
                     const std::vector<bool>& ground) {
-  for (double z = 0; z <= kTakeoffHeight; z += kTakeoffRoom / 2) {
+  for (double z = 0; z <= height; z += kTakeoffRoom / 2) {
     const Eigen::Vector3f p = (foot + Eigen::Vector3d(0, 0, z)).cast<float>();
     if (caster.nearest(p, static_cast<float>(kTakeoffRoom), ground)) return false;
   }
   return true;
 }
 
-SE3 find_takeoff(const FlightWorld& flight, const AirframeConfig& airframe, core::Rng& rng) {
-  const World& world = flight.built.world;
-  const Terrain& terrain = flight.built.terrain;
+SE3 find_takeoff(const MissionSite& site, const AirframeConfig& airframe, core::Rng& rng) {
+  const World& world = site.flight.built.world;
+  const Terrain& terrain = site.flight.built.terrain;
   const RayCaster caster(world);
   const std::vector<bool> ground = ground_materials(world);
-  const double reach = 0.5 * (terrain.shape().half_length - kBeyond);
+  const double reach = 0.5 * (terrain.shape().half_length - kBeyondSite);
+  // What stands under a ceiling stands on the floor: the ceiling itself is nearer than that.
+  const double height = std::min(kTakeoffHeight, site.ceiling_m - kTakeoffRoom);
   for (int attempt = 0; attempt < kTakeoffTries; ++attempt) {
     const double s = rng.uniform(-reach, reach);
-    const double d = aisle_d(terrain.section()) + rng.uniform(-1, 1);
+    const double d = site.aisle_d + rng.uniform(-1, 1);
     SE3 T = terrain.upright(s, d, rng.uniform(-std::numbers::pi, std::numbers::pi));
-    if (!is_free_column(caster, T.translation(), ground)) continue;
+    if (!is_free_column(caster, T.translation(), height, ground)) continue;
     T.translation().z() += airframe.leg_m;
     return T;
   }
-  throw Error("mission.site: no free place to take off in the car park");
+  throw Error("mission.site: no free place to take off");
 }
 
 /// Indices of the targets in the world's truth, those nearest to take-off.
@@ -136,7 +119,8 @@ std::vector<int> ids_of(const objects::ObjectMap& map) {
 }
 
 /// A box about the targets and the take-off, wide enough to fly around the outer ones.
-MissionFence fence_about(const objects::ObjectMap& prior, const MissionSiteConfig& site) {
+MissionFence fence_about(const objects::ObjectMap& prior, const MissionSiteConfig& site,
+                         double ceiling_m) {
   constexpr double kAround = 8;  // m: viewpoints lie about the targets
   Eigen::AlignedBox2d box(Eigen::Vector2d::Zero());
   for (const objects::MapObject& target : prior.objects)
@@ -145,7 +129,7 @@ MissionFence fence_about(const objects::ObjectMap& prior, const MissionSiteConfi
   const Eigen::Vector2d high = box.max().array() + kAround + site.fence_margin_m;
   return {{low.x(), low.y(), high.x(), low.y(), high.x(), high.y(), low.x(), high.y()},
           0.5,
-          site.fence_height_m};
+          std::min(site.fence_height_m, ceiling_m - kUnderCeiling)};
 }
 
 /// A wall for each event that brings one in, waiting under the ground.
@@ -177,15 +161,16 @@ MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed
   core::Rng obstacle_rng = base.fork(22);
   core::Rng prior_rng = base.fork(23);
   core::Rng error_rng = base.fork(24);
-  FlightWorld flight = built(c.site, base.fork(20));
+  MissionSite site = built(c.site, base.fork(20));
+  FlightWorld& flight = site.flight;
   World& world = flight.built.world;
-  const SE3 T_sim_world = levelled(find_takeoff(flight, c.airframe, takeoff_rng));
+  const SE3 T_sim_world = levelled(find_takeoff(site, c.airframe, takeoff_rng));
   const std::vector<std::size_t> targets = choose_targets(world, T_sim_world, c.site.targets);
   const objects::ObjectMap rough =
       rough_map(world, targets, T_sim_world.inverse(), c.site.prior_sd_m, prior_rng);
   add_obstacles(flight, targets, T_sim_world.translation(), c.site.obstacles, obstacle_rng);
   std::vector<std::size_t> inserted = add_inserted(world, c.events);
-  const MissionFence fence = fence_about(rough, c.site);
+  const MissionFence fence = fence_about(rough, c.site, site.ceiling_m);
   objects::ObjectMap prior;
   if (!c.site.no_prior) {
     prior = with_errors(rough, world, T_sim_world.inverse(), fence, c.site, error_rng);
@@ -196,7 +181,7 @@ MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed
 
 void drive(const FlightWorld& flight, double t, RayCaster& caster) {
   const Terrain& terrain = flight.built.terrain;
-  const double length = 2 * (terrain.shape().half_length - kBeyond);
+  const double length = 2 * (terrain.shape().half_length - kBeyondSite);
   for (const Driver& driver : flight.drivers) {
     const double run = driver.start_s + driver.speed_mps * t + length / 2;
     const double s = run - length * std::floor(run / length) - length / 2;

@@ -13,7 +13,7 @@ struct MissionFence {
   double highest_m = NAN;
 };
 
-/// A street with a car park beside it, a free place to take off from in the car park's aisle, and
+/// A street, a garage or a dirt road, a free place to take off from in an aisle or on the road, and
 /// what is said beforehand of the targets. `world` is the levelled frame of the body where it
 /// stands.
 struct MissionWorld {

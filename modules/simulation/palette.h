@@ -12,6 +12,7 @@ struct Palette {
   MaterialId metal, sign, glass, plaster, concrete, wood, wire, rail;
   MaterialId interior, rubber, rim, lamp, plate, dark;
   MaterialId person, bicycle, object, structure;
+  Paint paint = Paint::any;  ///< of its vehicles
 };
 
 [[nodiscard]] Palette make_palette(World& world, core::Rng& rng);

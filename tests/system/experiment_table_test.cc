@@ -12,12 +12,16 @@ using Json = nlohmann::ordered_json;
 
 Json run(const std::string& scenario, const std::string& policy,
          const std::vector<std::pair<double, double>>& errors, double clearance) {
-  Json list = Json::array();
+  Json list = Json::array(), targets = Json::array();
   for (const auto& [length, width] : errors) {
-    list.push_back({{"length_m", length}, {"width_m", width}});
+    const std::size_t id = list.size() + 1;
+    list.push_back({{"id", id}, {"length_m", length}, {"width_m", width}});
+    targets.push_back({{"id", id}, {"status", "done"}});
   }
   return {{"scenario", scenario},
           {"policy", policy},
+          {"seed", 1},
+          {"target_list", targets},
           {"succeeded", true},
           {"targets", 2},
           {"found", list.size()},
@@ -64,6 +68,28 @@ TEST(ExperimentTable, OfRunsThatFoundNothingHasNoErrors) {
   EXPECT_TRUE(row["min_clearance_m"].is_null());
   EXPECT_TRUE(row["trajectory_error_m"].is_null());
   EXPECT_EQ(row["found"], 0);
+}
+
+TEST(ExperimentTable, WhatOnePolicyReachesIsReachableForAll) {
+  Json came = run("garage", "visit", {{0.1, 0.1}}, 1);
+  came["target_list"].push_back({{"id", 7}, {"status", "visited"}});  // but not mapped
+  Json gave_up = run("garage", "paper", {}, 1);
+  gave_up["target_list"] = {{{"id", 1}, {"status", "unreachable"}},
+                            {{"id", 7}, {"status", "unreachable"}},
+                            {{"id", 9}, {"status", "unreachable"}}};
+  const auto rows = pool({came, gave_up});
+  EXPECT_EQ(rows[0].reachable, 2);
+  EXPECT_DOUBLE_EQ(rows[0].mapped_share(), 0.5);
+  EXPECT_EQ(rows[1].reachable, 2);
+  EXPECT_DOUBLE_EQ(rows[1].mapped_share(), 0);
+}
+
+TEST(ExperimentTable, ShowsTheDistributionBesideMeanAndSpread) {
+  const auto rows = pool({run("street", "visit", {{0, 0.1}, {0.2, 0.3}, {0.4, 0.4}}, 1)});
+  const Json quantiles = row_json(rows[0])["quantiles_m"];
+  EXPECT_NEAR(quantiles["50"].get<double>(), 0.25, 1e-12);
+  EXPECT_LT(quantiles["5"].get<double>(), 0.05);
+  EXPECT_GT(quantiles["95"].get<double>(), 0.35);
 }
 
 TEST(ExperimentTable, TextHasALineForEachRowUnderItsHeads) {

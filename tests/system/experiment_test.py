@@ -14,7 +14,7 @@ mission:
 AT_ONCE = ("--set", "mission.preflight_s=1")
 LEFT = {"experiment.json", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
         "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
-        "truth.json"}
+        "truth.json", "viewpoints.csv"}
 
 
 class Experiment(ProgramTest):
@@ -50,6 +50,26 @@ class Experiment(ProgramTest):
         self.assertTrue(second.is_file())
         table = json.loads((self.out / "results.json").read_text())["table"]
         self.assertEqual([row["runs"] for row in table], [2])
+
+    def bytes_of(self, out):
+        """What does not depend on how fast it was."""
+        names = ("experiment.json", "map.smap", "odometry.txt", "prior.json", "table.txt", "truth.json")
+        files = [p for p in sorted(out.rglob("*")) if p.name in names]
+        return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]}
+
+    def test_side_by_side_and_after_an_interruption_all_bytes_are_the_same(self):
+        several = ("--runs", "3")
+        self.assertEqual(self.fly(*several, "--threads", "1").returncode, 1)
+        alone = self.bytes_of(self.out)
+        self.assertEqual(len(alone), 3 * 4 + 3)
+        (self.out / "seed-2" / "results.json").unlink()
+        self.assertEqual(self.fly(*several).returncode, 1)
+        self.assertEqual(self.bytes_of(self.out), alone)
+        self.out = self.folder / "side_by_side"
+        self.assertEqual(self.fly(*several, "--threads", "3").returncode, 1)
+        self.assertEqual(self.bytes_of(self.out), alone)
+        for seed in (1, 2, 3):
+            self.assertIn("preflight_deadline", (self.out / f"seed-{seed}" / "log.txt").read_text())
 
     def test_the_same_seed_gives_the_same_bytes(self):
         self.assertEqual(self.fly().returncode, 1)

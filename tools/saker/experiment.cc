@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,8 +10,10 @@
 #include "core/config_io.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/parallel.h"
+#include "core/progress.h"
 #include "saker/configuration.h"
-#include "saker/experiment_table.h"
+#include "saker/experiment_report.h"
 #include "saker/mission_run.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
@@ -21,6 +24,8 @@ namespace saker::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kResults = "results.json";
 
 struct ExperimentOptions {
   std::vector<std::string> scenarios;
@@ -63,7 +68,12 @@ std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& 
       const auto chosen = core::config_with_setting("active.policy=" + policy, config);
       for (int i = 0; i < options.runs; ++i) {
         const std::uint64_t seed = common.seed + static_cast<std::uint64_t>(i);
-        MissionRun run{fs::path(scenario).stem(), site, chosen, seed, common.threads};
+        MissionRun run{.scenario = fs::path(scenario).stem(),
+                       .site = site,
+                       .config = chosen,
+                       .seed = seed,
+                       .threads = common.threads,
+                       .log = spdlog::default_logger()};
         fs::path folder = folder_of(options, run, policy);
         jobs.push_back({std::move(run), policy, std::move(folder)});
       }
@@ -72,10 +82,11 @@ std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& 
   return jobs;
 }
 
-/// A site without room is an error before anything is flown.
-void check_sites(const std::vector<Job>& jobs) {
+/// A site without room is an error before anything is flown; where it was flown there was room.
+void check_sites(const std::vector<Job>& jobs, const CommonOptions& common) {
   std::set<std::pair<std::string, std::uint64_t>> checked;
   for (const Job& job : jobs) {
+    if (!common.force && fs::exists(fs::path(common.out) / job.folder / kResults)) continue;
     if (!checked.emplace(job.run.scenario, job.run.seed).second) continue;
     try {
       (void)simulation::build_mission_world(job.run.site, job.run.seed);
@@ -106,21 +117,43 @@ bool goes_on(const CommonOptions& common, const std::string& wanted) {
 
 /// results.json is the last file of a run: where it is, the run is finished.
 std::optional<Json> finished(const fs::path& folder) {
-  const fs::path file = folder / "results.json";
+  const fs::path file = folder / kResults;
   if (!fs::exists(file)) return std::nullopt;
   return Json::parse(core::read_file(file));
 }
 
-Json run_or_read(const Job& job, const CommonOptions& common, bool alone) {
-  const fs::path folder = fs::path(common.out) / job.folder;
+/// One of several: on one thread, with a log of its own.
+Json run_or_read(Job job, const fs::path& out) {
+  const fs::path folder = out / job.folder;
   if (auto results = finished(folder)) return *results;
   spdlog::info("{} with {}, seed {}", job.run.scenario, job.policy, job.run.seed);
-  if (alone) return fly(job.run, folder);
-  CommonOptions inner = common;
-  inner.out = folder;
-  inner.force = true;  // what an interrupted run left
-  const OutputFolder out(inner);
-  return fly(job.run, out.path());
+  job.run.threads = 1;
+  job.run.log = log_of_run(folder);
+  job.run.shows_progress = false;
+  return fly(job.run, folder);
+}
+
+/// Missions side by side on all threads; results in the order of the jobs.
+std::vector<Json> fly_all(const std::vector<Job>& jobs, int threads, const fs::path& out) {
+  if (jobs.size() == 1) {
+    if (auto results = finished(out / jobs[0].folder)) return {*results};
+    return {fly(jobs[0].run, out)};
+  }
+  std::vector<std::future<Json>> flights;
+  core::TaskThreads side_by_side(threads);
+  for (const Job& job : jobs) {
+    auto task = std::make_shared<std::packaged_task<Json()>>(
+        [&job, &out] { return run_or_read(job, out); });
+    flights.push_back(task->get_future());
+    side_by_side.push([task] { (*task)(); });
+  }
+  core::Progress progress("missions", static_cast<long>(jobs.size()));
+  std::vector<Json> results;
+  for (std::future<Json>& flight : flights) {
+    results.push_back(flight.get());
+    progress.update(static_cast<long>(results.size()));
+  }
+  return results;
 }
 
 /// Whether the mission went as it should; says what did not.
@@ -140,31 +173,24 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
     options.policies = {active::enum_names(policy)[static_cast<std::size_t>(policy)]};
   }
   const std::vector<Job> jobs = jobs_of(options, common);
-  check_sites(jobs);
+  check_sites(jobs, common);
   const std::string wanted = manifest(options, common);
   CommonOptions outer = common;
   outer.force = common.force || goes_on(common, wanted);
   const OutputFolder out(outer);
   if (common.force) {
-    for (const Job& job : jobs) fs::remove(out.path() / job.folder / "results.json");
+    for (const Job& job : jobs) fs::remove(out.path() / job.folder / kResults);
   }
   core::write_file(out / "experiment.json", wanted);
 
-  std::vector<Json> results;
+  const std::vector<Json> results = fly_all(jobs, common.threads, out.path());
   bool all_good = true;
-  for (const Job& job : jobs) {
-    results.push_back(run_or_read(job, common, jobs.size() == 1));
-    all_good = good(results.back()) && all_good;
+  for (const Json& run : results) all_good = good(run) && all_good;
+  std::vector<FlownRun> runs;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    runs.push_back({out.path() / jobs[i].folder, results[i]});
   }
-  const std::vector<TableRow> rows = pool(results);
-  if (jobs.size() > 1) {
-    Json pooled = Json::array();
-    for (const TableRow& row : rows) pooled.push_back(row_json(row));
-    core::write_file(out / "results.json",
-                     Json{{"runs", jobs.size()}, {"table", pooled}}.dump(2) + "\n");
-  }
-  core::write_file(out / "table.txt", table_text(rows));
-  std::cout << table_text(rows);
+  std::cout << write_report(runs, out.path());
   return all_good ? 0 : 1;
 }
 

@@ -22,8 +22,71 @@ void add_number(const Json& value, std::vector<double>& to) {
   if (value.is_number()) to.push_back(value.get<double>());
 }
 
-void add(const Json& run, TableRow& row) {
+void append(const std::vector<double>& values, std::vector<double>& to) {
+  to.insert(to.end(), values.begin(), values.end());
+}
+
+std::pair<std::string, int> world_of(const Json& run) {
+  return {run.at("scenario").get<std::string>(), run.at("seed").get<int>()};
+}
+
+Json quantiles(const std::vector<double>& errors) {
+  Json values = Json::object();
+  for (const int percent : {5, 25, 50, 75, 95}) {
+    values[std::to_string(percent)] = number(core::percentile(errors, percent / 100.0));
+  }
+  return values;
+}
+
+TableRow& row_of(std::vector<TableRow>& rows, const std::string& scenario,
+                 const std::string& policy) {
+  const auto found = std::ranges::find_if(
+      rows, [&](const TableRow& row) { return row.scenario == scenario && row.policy == policy; });
+  if (found != rows.end()) return *found;
+  TableRow& row = rows.emplace_back();
+  row.scenario = scenario;
+  row.policy = policy;
+  return row;
+}
+
+}  // namespace
+
+double TableRow::mapped_share() const {
+  return reachable > 0 ? static_cast<double>(found) / reachable : NAN;
+}
+
+Reached reached_in(const std::vector<Json>& results) {
+  Reached reached;
+  for (const Json& run : results) {
+    std::set<int>& ids = reached[world_of(run)];
+    for (const Json& object : run.at("errors")) ids.insert(object.at("id").get<int>());
+    for (const Json& target : run.at("target_list")) {
+      const std::string status = target.at("status");
+      if (status == "done" || status == "visited") ids.insert(target.at("id").get<int>());
+    }
+  }
+  return reached;
+}
+
+void add(const TableRow& runs, TableRow& row) {
+  row.runs += runs.runs;
+  row.succeeded += runs.succeeded;
+  row.targets += runs.targets;
+  row.reachable += runs.reachable;
+  row.found += runs.found;
+  row.collisions += runs.collisions;
+  append(runs.errors, row.errors);
+  append(runs.size_nees, row.size_nees);
+  append(runs.place_nees, row.place_nees);
+  append(runs.trajectory_errors, row.trajectory_errors);
+  append(runs.flight_times, row.flight_times);
+  append(runs.paths, row.paths);
+  row.min_clearance_m = std::min(row.min_clearance_m, runs.min_clearance_m);
+}
+
+void add(const Json& run, const Reached& reached, TableRow& row) {
   ++row.runs;
+  row.reachable += static_cast<int>(reached.at(world_of(run)).size());
   row.succeeded += run.at("succeeded").get<bool>();
   row.targets += run.at("targets").get<int>();
   row.found += run.at("found").get<int>();
@@ -43,27 +106,15 @@ void add(const Json& run, TableRow& row) {
   }
 }
 
-TableRow& row_of(std::vector<TableRow>& rows, const std::string& scenario,
-                 const std::string& policy) {
-  const auto found = std::ranges::find_if(
-      rows, [&](const TableRow& row) { return row.scenario == scenario && row.policy == policy; });
-  if (found != rows.end()) return *found;
-  TableRow& row = rows.emplace_back();
-  row.scenario = scenario;
-  row.policy = policy;
-  return row;
-}
-
-}  // namespace
-
 std::vector<TableRow> pool(const std::vector<Json>& results) {
   std::vector<TableRow> rows, totals;
   std::set<std::string> scenarios;
+  const Reached reached = reached_in(results);
   for (const Json& run : results) {
     const std::string scenario = run.at("scenario"), policy = run.at("policy");
     scenarios.insert(scenario);
-    add(run, row_of(rows, scenario, policy));
-    add(run, row_of(totals, kAll, policy));
+    add(run, reached, row_of(rows, scenario, policy));
+    add(run, reached, row_of(totals, kAll, policy));
   }
   if (scenarios.size() > 1) rows.insert(rows.end(), totals.begin(), totals.end());
   return rows;
@@ -75,12 +126,15 @@ Json row_json(const TableRow& row) {
           {"runs", row.runs},
           {"succeeded", row.succeeded},
           {"targets", row.targets},
+          {"reachable", row.reachable},
           {"found", row.found},
           {"bias_m", number(core::mean(row.errors))},
           {"sd_m", number(core::standard_deviation(row.errors))},
           {"mae_m", number(core::mean_absolute(row.errors))},
           {"size_nees", number(core::mean(row.size_nees))},
           {"place_nees", number(core::mean(row.place_nees))},
+          {"quantiles_m", quantiles(row.errors)},
+          {"mapped_share", number(row.mapped_share())},
           {"trajectory_error_m", number(core::mean(row.trajectory_errors))},
           {"collisions", row.collisions},
           {"min_clearance_m", number(row.min_clearance_m)},
@@ -90,20 +144,20 @@ Json row_json(const TableRow& row) {
 
 std::string table_text(const std::vector<TableRow>& rows) {
   std::string text = fmt::format(
-      "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7} {:>6} {:>6} {:>9} {:>10} {:>10} {:>10} {:>9} {:>7} "
-      "{:>7}\n",
-      "scenario", "policy", "runs", "ok", "found", "bias m", "sd m", "MAE m", "size NEES",
-      "place NEES", "traject. m", "collisions", "clear. m", "time s", "path m");
+      "{:<12} {:<8} {:>4} {:>4} {:>9} {:>8} {:>7} {:>6} {:>6} {:>9} {:>10} {:>10} {:>10} {:>8} "
+      "{:>7} {:>7}\n",
+      "scenario", "policy", "runs", "ok", "found", "mapped %", "bias m", "sd m", "MAE m",
+      "size NEES", "place NEES", "traject. m", "collisions", "clear. m", "time s", "path m");
   for (const TableRow& row : rows) {
     text += fmt::format(
-        "{:<16} {:<8} {:>4} {:>4} {:>9} {:>7.3f} {:>6.3f} {:>6.3f} {:>9.2f} {:>10.2f} {:>10.3f} "
-        "{:>10} {:>9.2f} "
-        "{:>7.1f} {:>7.1f}\n",
+        "{:<12} {:<8} {:>4} {:>4} {:>9} {:>8.1f} {:>7.3f} {:>6.3f} {:>6.3f} {:>9.2f} {:>10.2f} "
+        "{:>10.3f} {:>10} {:>8.2f} {:>7.1f} {:>7.1f}\n",
         row.scenario, row.policy, row.runs, row.succeeded,
-        fmt::format("{} of {}", row.found, row.targets), core::mean(row.errors),
-        core::standard_deviation(row.errors), core::mean_absolute(row.errors),
-        core::mean(row.size_nees), core::mean(row.place_nees), core::mean(row.trajectory_errors),
-        row.collisions, row.min_clearance_m, core::mean(row.flight_times), core::mean(row.paths));
+        fmt::format("{} of {}", row.found, row.targets), 100 * row.mapped_share(),
+        core::mean(row.errors), core::standard_deviation(row.errors),
+        core::mean_absolute(row.errors), core::mean(row.size_nees), core::mean(row.place_nees),
+        core::mean(row.trajectory_errors), row.collisions, row.min_clearance_m,
+        core::mean(row.flight_times), core::mean(row.paths));
   }
   return text;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace saker::tools {
@@ -14,6 +17,7 @@ struct TableRow {
   int runs = 0;
   int succeeded = 0;
   int targets = 0;
+  int reachable = 0;  ///< of them, as `Reached` says
   int found = 0;
   int collisions = 0;
   std::vector<double> errors;                 ///< m, length and width, mapped − true
@@ -21,13 +25,26 @@ struct TableRow {
   std::vector<double> trajectory_errors;      ///< m, one a run
   std::vector<double> flight_times, paths;    ///< s, m; one a run
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs
+
+  [[nodiscard]] double mapped_share() const;  ///< found of the reachable
 };
+
+/// Targets (ids) of each world, which follows from scenario and seed, that at least one of the runs
+/// in it came to or mapped: no policy makes its own task easier by calling a target unreachable.
+using Reached = std::map<std::pair<std::string, int>, std::set<int>>;
+[[nodiscard]] Reached reached_in(const std::vector<nlohmann::ordered_json>& results);
+
+/// Adds a run to the figures of a row.
+void add(const nlohmann::ordered_json& run, const Reached& reached, TableRow& row);
+/// Adds a row's runs to another's.
+void add(const TableRow& runs, TableRow& row);
 
 /// A row for each scenario and policy in the order of the results, then one "all" for each policy
 /// that flew several scenarios. \param results what each run's results.json holds.
 [[nodiscard]] std::vector<TableRow> pool(const std::vector<nlohmann::ordered_json>& results);
 
-/// The same keys as a run's results.json; means over the runs where a figure is the run's.
+/// The same keys as a run's results.json, means over the runs where a figure is the run's; and
+/// `quantiles_m`, the distribution behind bias and sd.
 [[nodiscard]] nlohmann::ordered_json row_json(const TableRow& row);
 
 [[nodiscard]] std::string table_text(const std::vector<TableRow>& rows);

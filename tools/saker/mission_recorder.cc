@@ -1,7 +1,6 @@
 #include "saker/mission_recorder.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 namespace saker::tools {
 namespace {
@@ -32,30 +31,36 @@ void MissionRecorder::on_scan(const autonomy::IngestedScan& scan) {
   ++scans_;
 }
 
+void MissionRecorder::on_map(const autonomy::MapSnapshot& map) {
+  viewpoints_.take(map.stamp, map.map, truth_);
+}
+
 void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
                               const active::ActivePlan& plan) {
-  if (report.targets > 0) progress_.update(report.visited + report.unreachable);
+  if (progress_ != nullptr && report.targets > 0) {
+    progress_->update(report.visited + report.unreachable);
+  }
   if (plan.goal && plan.goal->id != viewpoint_) {
     viewpoint_ = plan.goal->id;
     const Eigen::Vector3d& p = plan.goal->position;
-    spdlog::debug("{:7.2f} s  target {}, {} pending: to viewpoint {} at ({:.1f}, {:.1f}, {:.1f})",
-                  to_seconds(report.stamp - start_), plan.goal->target_id, plan.pending, viewpoint_,
-                  p.x(), p.y(), p.z());
+    log_->debug("{:7.2f} s  target {}, {} pending: to viewpoint {} at ({:.1f}, {:.1f}, {:.1f})",
+                to_seconds(report.stamp - start_), plan.goal->target_id, plan.pending, viewpoint_,
+                p.x(), p.y(), p.z());
   }
   using enum autonomy::PlanningStatus;
   if (report.status != refused && report.status != gave_up && report.status != home_unreachable) {
     return;
   }
-  spdlog::debug("{:7.2f} s  {}: {}", to_seconds(report.stamp - start_), to_string(report.status),
-                report.text);
+  log_->debug("{:7.2f} s  {}: {}", to_seconds(report.stamp - start_), to_string(report.status),
+              report.text);
   const std::string cause = cause_of(report);
   if (refusals_.contains(cause) || refusals_.size() < kMostCauses) ++refusals_[cause];
 }
 
 void MissionRecorder::on_event(const autonomy::MissionEvent& event) {
   const double t = to_seconds(event.stamp - start_);
-  spdlog::info("{:7.2f} s  {} -> {}: {}  {}", t, to_string(event.from), to_string(event.to),
-               to_string(event.cause), event.text);
+  log_->info("{:7.2f} s  {} -> {}: {}  {}", t, to_string(event.from), to_string(event.to),
+             to_string(event.cause), event.text);
   if (events_.size() >= kMostEvents) {
     ++events_left_out_;
     return;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <spdlog/logger.h>
+
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -8,6 +11,7 @@
 #include "autonomy/mission_lockstep.h"
 #include "core/progress.h"
 #include "saker/trajectory_truth.h"
+#include "saker/viewpoint_log.h"
 #include "simulation/simulated_vehicle.h"
 
 namespace saker::tools {
@@ -16,13 +20,22 @@ namespace saker::tools {
 /// and the comparison with the truth need.
 class MissionRecorder : public autonomy::MissionObserver {
  public:
-  MissionRecorder(simulation::SimulatedVehicle& vehicle, const std::string& name, int targets)
-      : vehicle_(vehicle), start_(vehicle.now()), progress_(name, targets) {}
+  /// \param progress  over the targets; none where several missions go side by side
+  MissionRecorder(simulation::SimulatedVehicle& vehicle, std::shared_ptr<spdlog::logger> log,
+                  core::Progress* progress)
+      : vehicle_(vehicle),
+        start_(vehicle.now()),
+        truth_(vehicle.true_map()),
+        log_(std::move(log)),
+        progress_(progress) {}
 
   void on_scan(const autonomy::IngestedScan& scan) override;
+  void on_map(const autonomy::MapSnapshot& map) override;
   void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override;
   void on_event(const autonomy::MissionEvent& event) override;
 
+  /// What was predicted of viewpoints, and what came of it.
+  [[nodiscard]] const ViewpointLog& viewpoints() const { return viewpoints_; }
   /// T_world_lidar as it truly was, at the stamps of the scans.
   [[nodiscard]] const std::vector<StampedPose>& true_poses() const { return true_poses_; }
   /// Points of all scans in `world`. \param T_world_lidar of the scans, after SLAM
@@ -38,7 +51,10 @@ class MissionRecorder : public autonomy::MissionObserver {
 
   simulation::SimulatedVehicle& vehicle_;
   Time start_;
-  core::Progress progress_;
+  objects::ObjectMap truth_;
+  ViewpointLog viewpoints_;
+  std::shared_ptr<spdlog::logger> log_;
+  core::Progress* progress_;
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;
   std::vector<StampedPose> true_poses_;

@@ -1,10 +1,10 @@
 #include "saker/mission_run.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "autonomy/local_checker.h"
 #include "core/files.h"
@@ -19,10 +19,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the vehicle is told of the site: the fence, and how its lidar is mounted.
+/// m: a take-off swings over its height.
+constexpr double kUnderFence = 0.4;
+
+/// What the vehicle is told of the site: the fence, heights that fit under it, and how its lidar is
+/// mounted.
 autonomy::Config at_site(autonomy::Config config, const MissionRun& run,
                          const simulation::MissionWorld& site) {
   config.motion.geofence = {site.fence.lowest_m, site.fence.highest_m, site.fence.polygon_m};
+  const double highest = site.fence.highest_m - kUnderFence;
+  config.mission.height_m = std::min(config.mission.height_m, highest);
+  config.active.viewpoints.height_m = std::min(config.active.viewpoints.height_m, highest);
   config.mount = {run.site.mount.position_m, run.site.mount.rotation_deg};
   return config;
 }
@@ -130,7 +137,9 @@ Json fly(const MissionRun& run, const fs::path& out) {
   core::Timings timings;
   autonomy::MissionLockstep mission(config, vehicle.sensor(), site.prior, plant, checker,
                                     run.threads, timings);
-  MissionRecorder recorder(vehicle, run.scenario, static_cast<int>(site.targets.size()));
+  std::optional<core::Progress> progress;
+  if (run.shows_progress) progress.emplace(run.scenario, site.targets.size());
+  MissionRecorder recorder(vehicle, run.log, progress ? &*progress : nullptr);
   const double built_s = seconds_since(begin);
   const Time start = vehicle.now();
   const autonomy::MissionResult result = mission.run(longest_s(config.mission), recorder);
@@ -158,6 +167,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
 
   write_trajectories(result, recorder, out);
   write_maps(result, truth, site.prior, recorder, config.objects, out);
+  core::write_file(out / "viewpoints.csv", recorder.viewpoints().csv());
   core::write_file(out / "timings.csv", timings.csv());
   core::write_file(out / "results.json", results.dump(2) + "\n");
   return results;

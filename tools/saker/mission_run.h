@@ -1,6 +1,9 @@
 #pragma once
 
+#include <spdlog/logger.h>
+
 #include <filesystem>
+#include <memory>
 
 #include "autonomy/config.h"
 #include "saker/target_figures.h"
@@ -15,6 +18,8 @@ struct MissionRun {
   autonomy::Config config;
   std::uint64_t seed = 1;
   int threads = 1;
+  std::shared_ptr<spdlog::logger> log;
+  bool shows_progress = true;
 };
 
 /// Flies it and leaves in `out` what docs/contract.md lists, results.json last.

@@ -44,6 +44,12 @@ void check_writable(const fs::path& folder) {
   fs::remove(probe, ignored);
 }
 
+spdlog::sink_ptr log_file(const fs::path& folder) {
+  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / kLog).string(), true);
+  sink->set_pattern(kLogPattern);
+  return sink;
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(const CommonOptions& common) : path_(common.out) {
@@ -53,9 +59,7 @@ OutputFolder::OutputFolder(const CommonOptions& common) : path_(common.out) {
                             path_.string()));
   }
   check_writable(path_);
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>((path_ / kLog).string(), true);
-  sink->set_pattern(kLogPattern);
-  spdlog::default_logger()->sinks().push_back(std::move(sink));
+  spdlog::default_logger()->sinks().push_back(log_file(path_));
 }
 
 OutputFolder::~OutputFolder() {
@@ -66,6 +70,13 @@ OutputFolder::~OutputFolder() {
 fs::path OutputFolder::folder(const std::string& name) const {
   make_folder(path_ / name);
   return path_ / name;
+}
+
+std::shared_ptr<spdlog::logger> log_of_run(const fs::path& folder) {
+  make_folder(folder);
+  auto logger = std::make_shared<spdlog::logger>("run", log_file(folder));
+  logger->set_level(spdlog::default_logger()->level());
+  return logger;
 }
 
 fs::path output_file(const fs::path& file, bool force) {

@@ -1,9 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "saker/subcommand.h"
+
+namespace spdlog {
+class logger;
+}
 
 namespace saker::tools {
 
@@ -27,6 +32,10 @@ class OutputFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// The log of one of several runs: into folder/log.txt only, so that the lines of runs that go side
+/// by side do not mix. Makes the folder; throws Error where it cannot.
+[[nodiscard]] std::shared_ptr<spdlog::logger> log_of_run(const std::filesystem::path& folder);
 
 /// The file OUT of a command: `file`, if it may be written. Throws Error where it is there and
 /// `force` is false, or where its folder is not there.
