@@ -20,6 +20,7 @@ struct Measurement {
   int points = 0;             ///< that the model was fitted to
   int view_cell = -1;         ///< interval of range and angle in which the error is shared: all
                               ///< windows from one together count once; −1: counts by itself
+  double reflectivity = NAN;  ///< mean of those points', 0 … 1; NaN: the scans have none
   bool moving = false;        ///< seen to move within the window; kept out of the map
 };
 
