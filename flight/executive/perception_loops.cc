@@ -77,8 +77,8 @@ LoopStatus Executive::segment() {
     return std::make_shared<const lidar::Labels>(segmentation_.segment(*scan->scan));
   });
   const autonomy::RegisteredScan& registered = scan->registered;
-  board_.labelled.push(
-      {registered.stamp, registered.T_odom_lidar, registered.points, std::move(labels)});
+  board_.labelled.push({registered.stamp, registered.T_odom_lidar, registered.points,
+                        std::move(labels), registered.reflectivity});
   return {age_ms(registered.stamp), 0};
 }
 

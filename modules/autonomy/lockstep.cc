@@ -72,7 +72,11 @@ void Lockstep::start_segmentation(const std::shared_ptr<const lidar::Scan>& scan
     });
   });
   auto points = std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points));
-  window_.push_back({scan->stamp, estimate.T_odom_lidar, std::move(points), std::move(labels)});
+  window_.push_back({scan->stamp,
+                     estimate.T_odom_lidar,
+                     std::move(points),
+                     std::move(labels),
+                     {scan, &scan->reflectivity}});
 }
 
 /// Called when the newest scan has just been labelled: the detections are given in its frame.
@@ -84,7 +88,8 @@ void Lockstep::start_cycle(Time now) {
   auto detections = pool_.submit([this, window](Stages& stages) {
     std::vector<detection::LabelledScan> scans;
     for (const LabelledFuture& scan : window) {
-      scans.push_back({scan.stamp, scan.T_odom_lidar, scan.points, scan.labels.get()});
+      scans.push_back(
+          {scan.stamp, scan.T_odom_lidar, scan.points, scan.labels.get(), scan.reflectivity});
     }
     return timings_.time("detection", [&] { return stages.detection.detect(scans); });
   });

@@ -71,6 +71,7 @@ class Lockstep {
     SE3 T_odom_lidar;
     std::shared_ptr<const std::vector<Eigen::Vector3f>> points;
     std::shared_future<std::shared_ptr<const lidar::Labels>> labels;
+    std::shared_ptr<const std::vector<float>> reflectivity;
   };
   struct Cycle {
     slam::SlamInput input;

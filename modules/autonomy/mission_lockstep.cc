@@ -128,7 +128,8 @@ void MissionLockstep::segment(const IngestedScan& scan, Time now) {
 void MissionLockstep::map(Time now) {
   while (const auto labelled = labels_.take(now)) {
     const RegisteredScan& scan = labelled->registered;
-    window_.add({scan.stamp, scan.T_odom_lidar, scan.points, labelled->labels.get()});
+    window_.add(
+        {scan.stamp, scan.T_odom_lidar, scan.points, labelled->labels.get(), scan.reflectivity});
     if (!slam_schedule_.due(scan.stamp)) continue;
     if (last_map_.valid()) last_map_.wait();  // one cycle at a time
     last_map_ = pool_.submit([this, window = window_.scans(),

@@ -66,8 +66,10 @@ IngestedScan Ingestion::register_scan(lidar::Frame frame) {
     T_start_odometry_ = to_start_frame(estimate.T_odom_lidar * T_body_lidar_.inverse());
   }
   result.registered = {
-      estimate.stamp, *T_start_odometry_ * estimate.T_odom_lidar,
-      std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points))};
+      estimate.stamp,
+      *T_start_odometry_ * estimate.T_odom_lidar,
+      std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points)),
+      {result.scan, &result.scan->reflectivity}};
   result.covariance = estimate.covariance;
   result.status = estimate.status;
   result.reason = estimate.reason;

@@ -39,7 +39,8 @@ class Plant {
 struct RegisteredScan {
   Time stamp = 0;
   SE3 T_odom_lidar = SE3::Identity();
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> points;  ///< lidar frame at `stamp`
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> points;        ///< lidar frame at `stamp`
+  std::shared_ptr<const std::vector<float>> reflectivity = nullptr;  ///< one a point, 0 … 1
 };
 
 /// The collision checker, which alone writes occupancy.

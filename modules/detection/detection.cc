@@ -15,6 +15,18 @@ Eigen::Vector3d mean_of(const std::vector<ClassPoint>& points, const std::vector
   return sum / static_cast<double>(indices.size());
 }
 
+/// Of the points that have one; NaN where none has.
+double mean_reflectivity(const std::vector<ClassPoint>& points, const std::vector<int>& indices) {
+  double sum = 0;
+  int count = 0;
+  for (const int i : indices) {
+    if (!std::isfinite(points[i].reflectivity)) continue;
+    sum += points[i].reflectivity;
+    ++count;
+  }
+  return count > 0 ? sum / count : NAN;
+}
+
 std::vector<Eigen::Vector3d> moved(const SE3& T, const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector3d> result;
   for (const Eigen::Vector3d& p : points) result.push_back(T * p);
@@ -129,6 +141,7 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
   m.model = transformed(window_.T_lidar_level * T_level_local, fit.cuboid);
   m.covariance = fit.covariance;
   m.front_log_odds = fit.front_log_odds;
+  m.reflectivity = mean_reflectivity(window_.cuboids, indices);
   m.moving = fit.motion.moving;
   result.measurements.push_back(std::move(m));
 }
@@ -166,6 +179,7 @@ void Detection::add_trunk(const Indices& indices, objects::Detections& result) {
   objects::Measurement m = classified(std::move(probability), own, result.stamp);
   m.model = transformed(T_lidar_local, fit.cylinder);
   m.covariance = rotated(fit.covariance, T_lidar_local.linear(), fit.cylinder.axis);
+  m.reflectivity = mean_reflectivity(window_.cylinders, indices);
   result.measurements.push_back(std::move(m));
 }
 

@@ -31,6 +31,7 @@ class Gatherer {
     const Eigen::Matrix3f R = T_level_lidar.linear().cast<float>();
     const Eigen::Vector3f t = T_level_lidar.translation().cast<float>();
     const auto& points = *scan.points;
+    const bool reflective = scan.reflectivity && scan.reflectivity->size() == points.size();
     for (std::size_t i = 0; i < points.size(); ++i) {
       const objects::Shape shape = shapes_[scan.labels->classes[i]];
       const bool other = shape == objects::Shape::none, ground = shape == objects::Shape::plane;
@@ -43,19 +44,20 @@ class Gatherer {
       } else if (ground) {
         window_.ground.push_back(position);
       } else {
-        add_object(shape, position, scan.labels->probability[i], scan.labels->classes[i]);
+        add_object(shape, {position, scan.labels->probability[i], scan.labels->classes[i],
+                           static_cast<std::uint16_t>(window_.sensors.size() - 1),
+                           reflective ? (*scan.reflectivity)[i] : NAN});
       }
     }
   }
 
  private:
-  void add_object(objects::Shape shape, const Eigen::Vector3f& position, float probability,
-                  objects::ClassId class_id) {
-    if (!(probability >= config_.least_probability)) return;
+  void add_object(objects::Shape shape, ClassPoint point) {
+    if (!(point.probability >= config_.least_probability)) return;
+    point.probability = std::min(point.probability, 1.0f);
     auto& points = shape == objects::Shape::cuboid ? window_.cuboids : window_.cylinders;
     if (points.size() >= most_) return;
-    points.push_back({position, std::min(probability, 1.0f), class_id,
-                      static_cast<std::uint16_t>(window_.sensors.size() - 1)});
+    points.push_back(point);
   }
 
   WindowConfig config_;

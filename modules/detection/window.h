@@ -22,6 +22,7 @@ struct LabelledScan {
   std::shared_ptr<const std::vector<Eigen::Vector3f>>
       points;                                   ///< deskewed, in the lidar frame at `stamp`, m
   std::shared_ptr<const lidar::Labels> labels;  ///< one a point
+  std::shared_ptr<const std::vector<float>> reflectivity = nullptr;  ///< one a point; may be absent
 };
 
 struct WindowConfig {
@@ -51,7 +52,8 @@ struct ClassPoint {
   Eigen::Vector3f position;  ///< in the levelled frame
   float probability = 0;     ///< of its class
   objects::ClassId class_id = 0;
-  std::uint16_t scan = 0;  ///< index into Window::sensors and seconds
+  std::uint16_t scan = 0;    ///< index into Window::sensors and seconds
+  float reflectivity = NAN;  ///< 0 … 1; NaN where the scan has none
 };
 
 struct Window {

@@ -20,9 +20,10 @@ struct Measurement {
   int points = 0;             ///< that the model was fitted to
   int view_cell = -1;         ///< interval of range and angle in which the error is shared: all
                               ///< windows from one together count once; −1: counts by itself
-  double length_sd = NAN;  ///< m, of a cuboid's longer edge by its own points, where `covariance`
-                           ///< is a fitted one: tells whether both its ends were seen
-  bool moving = false;     ///< seen to move within the window; kept out of the map
+  double reflectivity = NAN;  ///< mean of those points', 0 … 1; NaN: the scans have none
+  double length_sd = NAN;     ///< m, of a cuboid's longer edge by its own points, where
+                              ///< `covariance` is a fitted one: whether both its ends were seen
+  bool moving = false;        ///< seen to move within the window; kept out of the map
 };
 
 /// Where a covariance holds what an object covers of the ground: [x, y, length, width] of a cuboid,

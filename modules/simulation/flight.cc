@@ -83,7 +83,8 @@ void write_flight(const FlightConfig& config, std::uint64_t seed,
   const lidar::SensorInfo& info = recorder.info();
   const Scanner scanner(caster, built.world, ouster_beams(info), c.receiver, seed);
   const std::vector<lidar::ImuSample> imu =
-      simulate_imu(path, c.imu, info.T_sensor_imu, c.duration_s, kStart, imu_rng);
+      simulate_imu([&](double t) { return path.pose(t); }, c.imu, info.T_sensor_imu, c.duration_s,
+                   kStart, imu_rng);
 
   const double last_column = info.column_window.last * info.column_period_s();
   const SE3 T_world_sim = levelled(path.pose(last_column)).inverse();

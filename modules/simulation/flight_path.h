@@ -1,16 +1,13 @@
 #pragma once
 
-#include <vector>
-
-#include "lidar/scan.h"
+#include "simulation/given_path.h"
 #include "simulation/scenario.h"
 #include "simulation/terrain.h"
 
 namespace saker::simulation {
 
 /// Where a multirotor's LiDAR is at any time: a smooth flight along the street that begins and ends
-/// hovering. The vehicle leans into its acceleration and shakes a little. Analytic, so that every
-/// derivative exists.
+/// hovering. The vehicle leans into its acceleration and shakes a little.
 class FlightPath {
  public:
   FlightPath(const FlightConfig& config, const Terrain& terrain, core::Rng& rng);
@@ -19,11 +16,6 @@ class FlightPath {
   [[nodiscard]] SE3 pose(double t) const;
 
  private:
-  struct Swing {
-    double amplitude, period, phase;
-    [[nodiscard]] double at(double t) const;
-  };
-
   [[nodiscard]] double travelled(double t) const;
   [[nodiscard]] double envelope(double t) const;
   [[nodiscard]] Eigen::Vector3d position(double t) const;
@@ -36,12 +28,5 @@ class FlightPath {
   Swing sway_, rise_, look_;
   Swing roll_, pitch_;
 };
-
-/// What an inertial unit at `T_lidar_imu` of the sensor reads along the path: specific force and
-/// turn rate in the lidar frame's axes, with noise and a constant bias.
-[[nodiscard]] std::vector<lidar::ImuSample> simulate_imu(const FlightPath& path,
-                                                         const ImuConfig& config,
-                                                         const SE3& T_lidar_imu, double duration_s,
-                                                         Time start, core::Rng& rng);
 
 }  // namespace saker::simulation

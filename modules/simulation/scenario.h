@@ -7,10 +7,10 @@
 
 namespace saker::simulation {
 
-enum class ScenarioKind { training, flight, mission };
+enum class ScenarioKind { training, flight, mission, spiral };
 
 [[nodiscard]] inline std::vector<std::string> enum_names(ScenarioKind) {
-  return {"training", "flight", "mission"};
+  return {"training", "flight", "mission", "spiral"};
 }
 
 /// Many small worlds, a few scans of each from random places: what the network learns from.
@@ -67,22 +67,69 @@ struct FlightConfig {
   }
 };
 
+/// A flight about one object, as the paper's manual spirals ("Uncertainty modeling").
+struct SpiralConfig {
+  double duration_s = 24;
+  double slowest_mps = 0.8;
+  double fastest_mps = 2.5;
+  double nearest_m = 0.9;
+  double start_spread_m = 4;
+  double farthest_m = 18;
+  double lowest_m = 1.5;
+  double highest_m = 6;
+  double rise_m = 8;
+  double look_around_deg = 40;
+  double vibration_deg = 0.15;
+  double clearance_m = 0.65;
+  double neighbour_share = 0.5;
+  int clutter = 16;
+  CaptureConfig capture = {.columns = 512, .lost_share = 0.002};
+  ImuConfig imu;
+  ReceiverConfig receiver;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("duration_s", duration_s, {10, 600}, "s", "from hovering to hovering");
+    v.field("slowest_mps", slowest_mps, {0.1, 10}, "m/s", "about the object, the slowest flight");
+    v.field("fastest_mps", fastest_mps, {0.1, 10}, "m/s", "the fastest: as missions fly");
+    v.field("nearest_m", nearest_m, {0.3, 20}, "m", "gap to the object's outline, in x-y");
+    v.field("start_spread_m", start_spread_m, {0, 20}, "m",
+            "more than that where something is in the way");
+    v.field("farthest_m", farthest_m, {3, 60}, "m", "range, in x-y, at the other end");
+    v.field("lowest_m", lowest_m, {0.5, 20}, "m", "over the object's ground");
+    v.field("highest_m", highest_m, {1, 60}, "m", "the same far away");
+    v.field("rise_m", rise_m, {0.5, 60}, "m",
+            "range in which the highest rises to 63 %: the object stays in the field of view");
+    v.field("look_around_deg", look_around_deg, {0, 180}, "°", "amplitude of the turns about z");
+    v.field("vibration_deg", vibration_deg, {0, 5}, "°", "amplitude of the rotors' shaking");
+    v.field("clearance_m", clearance_m, {0, 5}, "m", "kept from everything: as missions do");
+    v.field("neighbour_share", neighbour_share, {0, 1}, "",
+            "of the flights in which cars are parked beside the object");
+    v.field("clutter", clutter, {0, 200}, "", "things that are put about, where there is room");
+    v.group("capture", capture, "the sensor and its packets");
+    v.group("imu", imu, "the inertial unit");
+    v.group("receiver", receiver, "how the sensor answers");
+  }
+};
+
 /// What a scenario file says.
 struct Scenario {
   ScenarioKind kind = ScenarioKind::training;
   TrainingConfig training;
   FlightConfig flight;
   MissionConfig mission;
+  SpiralConfig spiral;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field(
         "kind", kind, "",
         "training: scans of many worlds; flight: one through one world; mission: a vehicle to be "
-        "flown");
+        "flown; spiral: about single objects");
     v.group("training", training, "many worlds");
     v.group("flight", flight, "one flight");
     v.group("mission", mission, "a vehicle in a world");
+    v.group("spiral", spiral, "about single objects");
   }
 };
 

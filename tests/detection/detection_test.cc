@@ -44,6 +44,22 @@ std::vector<LabelledScan> flight(double slope) {
   return scans;
 }
 
+TEST(Detection, ReflectivityIsTheMeanOfTheObjectsOwnPoints) {
+  auto scans = flight(0);
+  for (LabelledScan& scan : scans) {
+    auto reflectivity = std::make_shared<std::vector<float>>();
+    for (const std::uint8_t id : scan.labels->classes) reflectivity->push_back(0.2F * id);
+    scan.reflectivity = reflectivity;
+  }
+  Detection detection({}, {});
+  for (const objects::Measurement& m : detection.detect(scans).measurements) {
+    EXPECT_NEAR(m.reflectivity, 0.2 * m.class_id, 1e-6);
+  }
+  for (const objects::Measurement& m : detection.detect(flight(0)).measurements) {
+    EXPECT_TRUE(std::isnan(m.reflectivity));
+  }
+}
+
 TEST(Detection, FindsEachObjectOnceInTheLastScansFrame) {
   for (const double slope : {0.0, 0.1}) {
     const auto scans = flight(slope);

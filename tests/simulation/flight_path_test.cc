@@ -48,7 +48,8 @@ TEST(FlightPath, StandingStillTheUnitReadsOneG) {
   FlightConfig config = f.config;
   config.vibration_deg = 0;
   const FlightPath path(config, f.built.terrain, path_rng);
-  const auto samples = simulate_imu(path, ideal(), SE3::Identity(), 1.2, 0, rng);
+  const auto samples =
+      simulate_imu([&](double t) { return path.pose(t); }, ideal(), SE3::Identity(), 1.2, 0, rng);
   for (const lidar::ImuSample& sample : samples) {
     EXPECT_NEAR((sample.acceleration - Eigen::Vector3d(0, 0, 9.80665)).norm(), 0, 1e-3);
     EXPECT_NEAR(sample.angular_velocity.norm(), 0, 1e-6);
@@ -65,7 +66,8 @@ TEST(FlightPath, ReadingsIntegrateToThePath) {
   ImuConfig imu = ideal();
   imu.rate_hz = 1000;
   SE3 T_lidar_imu = placed(0.01, -0.02, 0.03);
-  const auto samples = simulate_imu(path, imu, T_lidar_imu, 10, 0, rng);
+  const auto samples =
+      simulate_imu([&](double t) { return path.pose(t); }, imu, T_lidar_imu, 10, 0, rng);
   SE3 T = path.pose(0) * T_lidar_imu;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (const lidar::ImuSample& sample : samples) {

@@ -5,6 +5,8 @@
 namespace saker::tools {
 
 // The commands of the group `saker characterise`, a file each.
+void add_characterise_fly(Commands& commands, CLI::App& group);
+void add_characterise_collect(Commands& commands, CLI::App& group);
 void add_characterise_fit(Commands& commands, CLI::App& group);
 
 }  // namespace saker::tools

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
 #include "objects/map_io.h"
+#include "saker/detections_file.h"
 
 namespace saker::tools {
 namespace {
@@ -14,37 +13,6 @@ namespace {
 constexpr std::size_t kPointsPerScan = 400;  // enough to see walls after a few scans
 constexpr std::size_t kMostPoints =
     1'000'000;  // 12 MB; after it the picture's background stops growing
-
-nlohmann::json numbers(const Eigen::Ref<const Eigen::VectorXd>& v) {
-  return std::vector<double>(v.data(), v.data() + v.size());
-}
-
-nlohmann::json model_json(const objects::Model& model) {
-  if (const auto* cuboid = std::get_if<objects::Cuboid>(&model)) {
-    const Eigen::Quaterniond q(cuboid->pose.linear());
-    return {{"position", numbers(cuboid->pose.translation())},
-            {"rotation", numbers(q.coeffs())},
-            {"size", numbers(cuboid->size)}};
-  }
-  const auto& cylinder = std::get<objects::Cylinder>(model);
-  return {{"root", numbers(cylinder.root)},
-          {"axis", numbers(cylinder.axis)},
-          {"radius", cylinder.radius},
-          {"height", cylinder.height}};
-}
-
-nlohmann::json measurement_json(const objects::Measurement& m, const objects::ClassTable& table) {
-  nlohmann::json row = {{"time", to_seconds(m.stamp)},
-                        {"class", table[m.class_id].name},
-                        {"class_probability", m.class_probability},
-                        {"model", model_json(m.model)},
-                        {"points", m.points},
-                        {"moving", m.moving}};
-  for (Eigen::Index i = 0; i < m.covariance.rows(); ++i) {
-    row["covariance"].push_back(numbers(m.covariance.row(i).transpose()));
-  }
-  return row;
-}
 
 }  // namespace
 

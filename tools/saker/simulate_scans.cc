@@ -21,6 +21,10 @@ int simulate_scans(const SimulateOptions& options, const CommonOptions& common) 
     throw Error(options.scenario +
                 ": kind: mission, expected training or flight: saker experiment flies missions");
   }
+  if (scenario.kind == simulation::ScenarioKind::spiral) {
+    throw Error(options.scenario +
+                ": kind: spiral, expected training or flight: saker characterise flies spirals");
+  }
   const OutputFolder out(common);
   std::optional<core::Progress> bar;
   const auto progress = [&](int done, int total) {

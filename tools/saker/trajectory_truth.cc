@@ -16,12 +16,12 @@ namespace {
 
 constexpr double kSameStamp_s = 1e-3;
 
-const StampedPose* at(const std::vector<StampedPose>& poses, double t) {
+}  // namespace
+
+const StampedPose* pose_at(const std::vector<StampedPose>& poses, double t) {
   const auto found = std::ranges::lower_bound(poses, t - kSameStamp_s, {}, &StampedPose::t);
   return found != poses.end() && found->t <= t + kSameStamp_s ? &*found : nullptr;
 }
-
-}  // namespace
 
 std::vector<StampedPose> read_trajectory(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -59,7 +59,7 @@ nlohmann::json trajectory_figures(std::span<const autonomy::ScanRecord> scans,
   double square = 0, greatest = 0, angle_square = 0;
   int compared = 0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    const StampedPose* pose = at(truth, to_seconds(scans[i].stamp));
+    const StampedPose* pose = pose_at(truth, to_seconds(scans[i].stamp));
     if (pose == nullptr) continue;
     const SE3 error = pose->T_world_lidar.inverse() * T_world_lidar[i];
     square += error.translation().squaredNorm();

@@ -25,6 +25,9 @@ struct Truth {
 /// TUM rows in time order; none where there is no such file. Throws Error on a malformed row.
 [[nodiscard]] std::vector<StampedPose> read_trajectory(const std::filesystem::path& file);
 
+/// The pose of that time, to 1 ms; null where there is none. `poses` in time order.
+[[nodiscard]] const StampedPose* pose_at(const std::vector<StampedPose>& poses, double t);
+
 /// Throws Error where a file is missing or malformed; a missing trajectory is none.
 [[nodiscard]] Truth read_truth(const std::filesystem::path& file, const objects::ClassTable& table);
 

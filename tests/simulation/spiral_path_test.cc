@@ -1,0 +1,94 @@
+#include "simulation/spiral_path.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "simulation/world.h"
+
+namespace saker::simulation {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+const Eigen::Vector2d kCar(2.3, 0.9);
+
+SE3 car_pose() { return placed(3, -2, 0.5, 0.7); }
+
+SpiralPath path_of(std::uint64_t seed, const SpiralConfig& config = {}) {
+  core::Rng rng(seed);
+  return {config, car_pose(), kCar, rng};
+}
+
+Eigen::Vector3d seen_from_car(const SpiralPath& path, double t) {
+  return car_pose().inverse() * path.pose(t).translation();
+}
+
+TEST(SpiralPath, ManyFlightsShowEveryAngleAtEveryRange) {
+  std::set<std::pair<int, int>> seen;  // 2 m, an eighth of a turn
+  for (std::uint64_t seed = 0; seed < 90; ++seed) {
+    const SpiralPath path = path_of(seed);
+    for (double t = 0; t < 24; t += 0.1) {
+      const Eigen::Vector3d p = seen_from_car(path, t);
+      const double angle = std::atan2(p.y(), p.x()) + kTurn / 2;
+      seen.emplace(static_cast<int>(p.head<2>().norm() / 2), static_cast<int>(8 * angle / kTurn));
+    }
+  }
+  for (int range = 2; range < 9; ++range) {
+    for (int angle = 0; angle < 8; ++angle) EXPECT_TRUE(seen.contains({range, angle})) << range;
+  }
+  for (const int side : {1, 2, 5, 6}) EXPECT_TRUE(seen.contains({1, side})) << side;
+}
+
+TEST(SpiralPath, StaysWithinItsLimits) {
+  const SpiralConfig config;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const SpiralPath path = path_of(seed);
+    for (double t = 0; t < 24; t += 0.1) {
+      const Eigen::Vector3d p = seen_from_car(path, t);
+      const Eigen::Vector2d outside = (p.head<2>().cwiseAbs() - kCar).cwiseMax(0.0);
+      EXPECT_GT(outside.norm(), 0.2 * config.nearest_m);  // an ellipse nears the corners
+      EXPECT_LT(p.head<2>().norm(), config.farthest_m + kCar.x() - kCar.y());
+      EXPECT_GE(p.z(), config.lowest_m);
+      EXPECT_LE(p.z(), config.highest_m);
+    }
+  }
+}
+
+TEST(SpiralPath, FliesAsAMultirotorOfAMission) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const SpiralPath path = path_of(seed);
+    for (double t = 0; t < 24; t += 0.1) {
+      const SE3 T = path.pose(t);
+      const Eigen::Vector3d step = path.pose(t + 0.01).translation() - T.translation();
+      EXPECT_LT(step.norm() / 0.01, 3.5);
+      EXPECT_LT(std::abs(step.z()) / 0.01, 1.2);
+      EXPECT_GT(T.linear()(2, 2), std::cos(20 * kTurn / 360));
+    }
+  }
+}
+
+TEST(SpiralPath, BeginsAndEndsHovering) {
+  const SpiralPath path = path_of(3);
+  EXPECT_LT((path.pose(1.4).translation() - path.pose(0).translation()).norm(), 1e-6);
+  EXPECT_LT((path.pose(24).translation() - path.pose(22.6).translation()).norm(), 1e-6);
+  EXPECT_GT((path.pose(24).translation() - path.pose(0).translation()).norm(), 5);
+}
+
+TEST(SpiralPath, HeightDoesNotFollowFromRange) {
+  double low = 1e9, high = 0;
+  for (std::uint64_t seed = 0; seed < 90; ++seed) {
+    const SpiralPath path = path_of(seed);
+    for (double t = 0; t < 24; t += 0.1) {
+      const Eigen::Vector3d p = seen_from_car(path, t);
+      if (std::abs(p.head<2>().norm() - 8) > 0.5) continue;
+      low = std::min(low, p.z());
+      high = std::max(high, p.z());
+    }
+  }
+  EXPECT_LT(low, 2.0);
+  EXPECT_GT(high, 3.6);
+}
+
+}  // namespace
+}  // namespace saker::simulation
