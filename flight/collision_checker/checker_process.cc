@@ -115,6 +115,12 @@ CheckerProcess::Steady::time_point CheckerProcess::next_due() const {
   return std::min({verdict_timer_.next, occupancy_timer_.next, health_timer_.next});
 }
 
+std::vector<LoopRow> CheckerProcess::loops() const {
+  return {{"scan", scan_meter_.totals()},
+          {"verdict", verdict_meter_.totals()},
+          {"occupancy", occupancy_meter_.totals()}};
+}
+
 void CheckerProcess::integrate() {
   const LoopMeter::Run run(scan_meter_);
   const autonomy::RegisteredScan scan = *std::exchange(scan_, std::nullopt);

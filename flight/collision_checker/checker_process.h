@@ -2,12 +2,13 @@
 
 #include <chrono>
 #include <optional>
+#include <vector>
 
 #include "bus/bus.h"
 #include "bus/scan_messages.h"
 #include "motion/collision_checker.h"
 #include "process/configuration.h"
-#include "process/loop_meter.h"
+#include "process/loop_report.h"
 #include "process/sensor_clock.h"
 
 namespace saker::flight {
@@ -31,6 +32,9 @@ class CheckerProcess {
 
   /// Until when there is nothing to do, unless something is heard.
   [[nodiscard]] Steady::time_point next_due() const;
+
+  /// What its loops took since the start.
+  [[nodiscard]] std::vector<LoopRow> loops() const;
 
  private:
   /// What is due again and again, never made up for.

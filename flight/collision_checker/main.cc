@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "bus/presence.h"
 #include "bus/priority.h"
@@ -8,6 +9,7 @@
 #include "core/config_io.h"
 #include "core/error.h"
 #include "process/process.h"
+#include "saker/output.h"
 
 namespace saker::flight {
 namespace {
@@ -31,7 +33,16 @@ void serve(Bus& bus, Presence& presence, CheckerProcess& checker) {
   }
 }
 
-int run(const ProcessOptions& options) {
+/// What the report of the flight says of this process.
+void leave_loops(const tools::CommonOptions& output, const CheckerProcess& checker,
+                 Steady::duration ran) {
+  const tools::OutputFolder out(output);
+  write_loops(out / "loops.json", std::chrono::duration<double>(ran).count(), process_seconds(),
+              checker.loops());
+}
+
+int run(const ProcessOptions& options, const tools::CommonOptions& output) {
+  const auto begin = Steady::now();
   const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
   Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-collision-checker");
@@ -40,6 +51,7 @@ int run(const ProcessOptions& options) {
   if (const std::string fault = take_priority(kPriority); !fault.empty()) spdlog::warn(fault);
   spdlog::info("listens as {}", options.robot);
   serve(bus, presence, checker);
+  if (!output.out.empty()) leave_loops(output, checker, Steady::now() - begin);
   spdlog::info("ends as asked");
   return 0;
 }
@@ -48,10 +60,21 @@ int run(const ProcessOptions& options) {
 }  // namespace saker::flight
 
 int main(int argc, char** argv) {
+  auto output = std::make_shared<saker::tools::CommonOptions>();
   return saker::flight::run_program(
       {.name = "saker-collision-checker",
        .does = "Keeps the occupancy map of one robot and says how far its committed trajectory may "
                "be flown.",
-       .run = saker::flight::run},
+       .add_options =
+           [output](CLI::App& app) {
+             app.add_option("-o", output->out,
+                            "folder of loops.json: processor time, for the report")
+                 ->type_name("OUT");
+             app.add_flag("--force", output->force, "replace results in OUT");
+           },
+       .run =
+           [output](const saker::flight::ProcessOptions& options) {
+             return saker::flight::run(options, *output);
+           }},
       argc, argv);
 }

@@ -2,13 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
-#include <ctime>
 #include <thread>
 
 #include "bus/messages.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "objects/map_io.h"
+#include "process/loop_report.h"
 #include "process/process.h"
 
 namespace saker::flight {
@@ -22,13 +22,6 @@ constexpr int kHealthsPerProgress = 5;  // a line every 5 s
 // What flies comes first, what feeds it next; maps and plans take what is left.
 constexpr int kSafetyPriority = 70, kGuidancePriority = 65, kPosePriority = 60,
               kSensorPriority = 55, kIoPriority = 50, kIngestionPriority = 20;
-
-/// Of all threads.
-double process_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 }  // namespace
 

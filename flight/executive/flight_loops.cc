@@ -92,6 +92,7 @@ autonomy::SupervisorInput Executive::seen(Time now) {
   if (const auto map = board_.map.latest()) {
     input.T_world_odom = map->T_world_odom;
     input.heard.mapping = map->stamp;
+    input.classified_share = map->classified_share;
   }
   if (const auto verdict = board_.verdict.latest()) input.heard.verdict = verdict->stamp;
   if (const auto grid = board_.grid.latest()) input.heard.occupancy = grid->stamp;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "bus/messages.h"
-#include "core/files.h"
 #include "executive/executive.h"
+#include "process/loop_report.h"
 
 /// What the executive says of itself: MISSION, PLAN, HEALTH, and lines.
 namespace saker::flight {
@@ -131,16 +130,9 @@ void Executive::say_totals() const {
 }
 
 void Executive::save_loops(const std::filesystem::path& file) const {
-  nlohmann::ordered_json document = {{"wall_s", ran_s_}, {"cpu_s", ran_cpu_s_}};
-  for (const auto& loop : loops_) {
-    const LoopMeter::Totals& totals = loop->totals();
-    document["loops"].push_back({{"name", loop->name()},
-                                 {"runs", totals.runs},
-                                 {"late", totals.misses},
-                                 {"worst_late_ms", totals.worst_lateness_ms},
-                                 {"cpu_s", totals.cpu_s}});
-  }
-  core::write_file(file, document.dump(1) + "\n");
+  std::vector<LoopRow> rows;
+  for (const auto& loop : loops_) rows.push_back({loop->name(), loop->totals()});
+  write_loops(file, ran_s_, ran_cpu_s_, rows);
 }
 
 }  // namespace saker::flight

@@ -18,6 +18,7 @@ const char* to_string(Cause cause) {
                                     "battery_low",
                                     "battery_empty",
                                     "no_targets",
+                                    "nothing_classified",
                                     "collision",
                                     "vehicle_descends",
                                     "off_course",

@@ -6,22 +6,23 @@ namespace saker::autonomy {
 enum class Cause {
   none,
   // What is missing or has gone stale; before the flight it refuses, in flight it holds or lands.
-  vehicle_silent,    ///< no state from the flight controller
-  lidar_silent,      ///< no whole scan
-  odometry_stale,    ///< no scan could be registered lately
-  odometry_lost,     ///< for so long that the pose is a guess
-  checker_silent,    ///< no verdict
-  occupancy_stale,   ///< no occupancy block
-  mapping_stale,     ///< no map from SLAM
-  planning_stale,    ///< no answer from planning
-  outside_geofence,  ///< take-off place or vehicle
-  battery_low,       ///< enough for the way back
-  battery_empty,     ///< enough to land
-  no_targets,        ///< no prior map, or no target in it
-  collision,         ///< the flight controller felt one
-  vehicle_descends,  ///< the flight controller trusts no odometry and comes down by itself
-  off_course,        ///< the vehicle does not follow its setpoints
-  stopped,           ///< guidance stops on the way: the verdict, or there is none
+  vehicle_silent,      ///< no state from the flight controller
+  lidar_silent,        ///< no whole scan
+  odometry_stale,      ///< no scan could be registered lately
+  odometry_lost,       ///< for so long that the pose is a guess
+  checker_silent,      ///< no verdict
+  occupancy_stale,     ///< no occupancy block
+  mapping_stale,       ///< no map from SLAM
+  planning_stale,      ///< no answer from planning
+  outside_geofence,    ///< take-off place or vehicle
+  battery_low,         ///< enough for the way back
+  battery_empty,       ///< enough to land
+  no_targets,          ///< no prior map, or no target in it
+  nothing_classified,  ///< segmentation works, but gives next to no point a class
+  collision,           ///< the flight controller felt one
+  vehicle_descends,    ///< the flight controller trusts no odometry and comes down by itself
+  off_course,          ///< the vehicle does not follow its setpoints
+  stopped,             ///< guidance stops on the way: the verdict, or there is none
   // Waits that ended badly.
   preflight_deadline,
   command_refused,

@@ -36,6 +36,7 @@ struct MissionConfig {
   double height_tolerance_m = 0.4;
   double settle_s = 2.0;
   double preflight_s = 30;
+  double least_classified_share = 0.05;
   double takeoff_s = 20;
   double tour_s = 1500;
   double return_s = 240;
@@ -50,6 +51,8 @@ struct MissionConfig {
     v.field("height_tolerance_m", height_tolerance_m, {0.05, 5}, "m", "of the take-off");
     v.field("settle_s", settle_s, {0, 60}, "s", "without a fault before arming");
     v.field("preflight_s", preflight_s, {1, 3600}, "s", "for all that is needed to be there");
+    v.field("least_classified_share", least_classified_share, {0, 1}, "",
+            "of the points of a scan on the ground: fewer, and segmentation does not work here");
     v.field("takeoff_s", takeoff_s, {2, 300}, "s", "to reach the height; then land");
     v.field("tour_s", tour_s, {1, 86400}, "s", "for all targets; then return");
     v.field("return_s", return_s, {1, 3600}, "s", "for the way home; then land where it is");

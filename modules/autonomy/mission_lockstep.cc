@@ -196,7 +196,10 @@ void MissionLockstep::supervise(Time now) {
   input.heard = heard_;
   input.vehicle = vehicle_;
   input.odometry = odometry_;
-  if (map_) input.T_world_odom = map_->T_world_odom;
+  if (map_) {
+    input.T_world_odom = map_->T_world_odom;
+    input.classified_share = map_->classified_share;
+  }
   input.setpoint = setpoint_;
   input.acks = std::exchange(acks_, {});
   input.planning = report_;

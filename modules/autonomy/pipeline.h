@@ -107,6 +107,7 @@ struct MapSnapshot {
   SE3 T_world_odom = SE3::Identity();
   objects::Detections detections;  ///< as measured, lidar frame at `stamp`
   slam::SlamUpdate update;
+  double classified_share = NAN;  ///< of the newest scan's points: those with a class of the table
 };
 
 /// Labelled scans of the last seconds → detections → fitted noise → SLAM.

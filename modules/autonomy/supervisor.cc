@@ -1,5 +1,7 @@
 #include "autonomy/supervisor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -7,7 +9,10 @@ namespace saker::autonomy {
 
 Supervisor::Supervisor(const SafetyConfig& safety, const MissionConfig& mission,
                        const motion::Geofence& geofence)
-    : height_m_(mission.height_m), safety_(safety, geofence), mission_(mission) {}
+    : height_m_(mission.height_m),
+      least_classified_share_(mission.least_classified_share),
+      safety_(safety, geofence),
+      mission_(mission) {}
 
 SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   SafetyInput result;
@@ -28,6 +33,23 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   return result;
 }
 
+/// What keeps it there: the ladder's findings, and what only matters before the flight.
+std::vector<Finding> Supervisor::on_the_ground(const SupervisorInput& input,
+                                               const SafetyInput& seen) const {
+  std::vector<Finding> found = safety_.findings(seen);
+  if (!input.has_targets) {
+    found.push_back({Cause::no_targets, SafetyAction::none, "no target to map"});
+  }
+  const bool labelled = input.heard.mapping != 0;  // else the map is missing, which is said
+  if (labelled && !(input.classified_share >= least_classified_share_)) {
+    found.push_back(
+        {Cause::nothing_classified, SafetyAction::none,
+         fmt::format("segmentation gives {:.1f} % of the points a class, expected {:g} %",
+                     100 * input.classified_share, 100 * least_classified_share_)});
+  }
+  return found;
+}
+
 Mission::Output Supervisor::step(SupervisorInput input) {
   const SafetyInput seen = safety_input(input);
   MissionInput mission;
@@ -41,10 +63,7 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.land_ordered = input.land_ordered;
   mission.safety = safety_.update(seen);
   if (mission_.phase() == MissionPhase::preflight) {
-    mission.findings = safety_.findings(seen);
-    if (!input.has_targets) {
-      mission.findings.push_back({Cause::no_targets, SafetyAction::none, "no target to map"});
-    }
+    mission.findings = on_the_ground(input, seen);
   }
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {

@@ -19,6 +19,7 @@ struct SupervisorInput {
   PlanningReport planning;           ///< the newest
   GuidanceStop stop;                 ///< the last one
   bool has_targets = false;          ///< or a geofence to sweep for them
+  double classified_share = NAN;     ///< of the newest labelled scan
   bool land_ordered = false;
 };
 
@@ -34,8 +35,11 @@ class Supervisor {
 
  private:
   [[nodiscard]] SafetyInput safety_input(const SupervisorInput& input) const;
+  [[nodiscard]] std::vector<Finding> on_the_ground(const SupervisorInput& input,
+                                                   const SafetyInput& seen) const;
 
   double height_m_;
+  double least_classified_share_;
   Safety safety_;
   Mission mission_;
   Time planning_since_ = 0;  // when planning was last asked to begin; 0: it is not asked

@@ -34,6 +34,14 @@ struct ClearanceConfig {
   }
 
   [[nodiscard]] double least_m() const { return robot_radius_m + margin_m; }
+
+  /// m, kept on the way out from a cell whose surface is `now_m` from the body's centre already:
+  /// the radius, or what there is of it. A cell that was seen late, and is larger than what is in
+  /// it, may be that near; the vehicle leaves it without coming nearer. In touch there is no way.
+  [[nodiscard]] double leaving_m(double now_m) const {
+    return now_m > kAsNear_m && now_m < robot_radius_m ? now_m - kAsNear_m : robot_radius_m;
+  }
+  static constexpr double kAsNear_m = 0.02;  ///< the same distance: a smoothed path cuts corners
 };
 
 /// Where what was never seen counts as free, all the same: places that the vehicle stands for.

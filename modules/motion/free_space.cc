@@ -1,6 +1,7 @@
 #include "motion/free_space.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace saker::motion {
 namespace {
@@ -9,7 +10,8 @@ using occupancy::Cell;
 using occupancy::DistanceField;
 using occupancy::OccupancyGrid;
 
-constexpr double kFarthest_m = 2.5;  // more makes the field dearer and the steps hardly longer
+constexpr double kFarthest_m = 2.5;     // more makes the field dearer and the steps hardly longer
+constexpr double kFieldError_m = 0.05;  // the field reads too long by less
 
 /// Only the cells of the box around the exempted places need a look.
 void free_where_exempt(OccupancyGrid& grid, const Exemption& exemption,
@@ -45,15 +47,50 @@ FreeSpace::FreeSpace(const OccupancyGrid& snapshot, const ClearanceConfig& confi
       fence_(fence),
       vehicle_(exemption.vehicle),
       grid_(with_exemption(snapshot, exemption, config)),
-      field_(grid_, kFarthest_m, occupancy::UnknownCells::occupied),
-      clearance_of_vehicle_m_(clearance_m(vehicle_)),
+      vehicle_is_clear_(grid_.at(vehicle_) == Cell::free),
       inside_of_vehicle_m_(fence.inside_m(vehicle_)) {
+  take_close_cells();
+  field_ = DistanceField(grid_, kFarthest_m, occupancy::UnknownCells::occupied);
+  field_of_vehicle_m_ = field_m(vehicle_);
   for (int y = 0; y < grid_.size.y(); ++y)
     for (int x = 0; x < grid_.size.x(); ++x)
       inside_polygon_m_.push_back(fence.inside_polygon_m(grid_.centre_of({x, y, 0}).head<2>()));
 }
 
+/// Takes them out of the grid, so that the field knows what else is there.
+void FreeSpace::take_close_cells() {
+  if (!vehicle_is_clear_) return;
+  const double within_m = config_.robot_radius_m + kFieldError_m;
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(within_m);
+  const Eigen::Vector3i first = grid_.index_of(vehicle_ - reach).cwiseMax(0);
+  const Eigen::Vector3i last =
+      grid_.index_of(vehicle_ + reach).cwiseMin(grid_.size - Eigen::Vector3i::Ones());
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) {
+        Cell& cell = grid_.cells[grid_.offset({x, y, z})];
+        const double now_m = grid_.distance_m({x, y, z}, vehicle_);
+        if (cell == Cell::free || now_m >= within_m) continue;
+        close_.push_back({{x, y, z}, now_m});
+        cell = Cell::free;
+      }
+}
+
 double FreeSpace::clearance_m(const Eigen::Vector3d& p) const {
+  double nearest_m = field_m(p);
+  for (const CloseCell& cell : close_)
+    nearest_m = std::min(nearest_m, grid_.distance_m(cell.index, p));
+  return nearest_m;
+}
+
+double FreeSpace::close_slack_m(const Eigen::Vector3d& p) const {
+  double slack_m = std::numeric_limits<double>::infinity();
+  for (const CloseCell& cell : close_)
+    slack_m = std::min(slack_m, grid_.distance_m(cell.index, p) - cell.now_m);
+  return slack_m;
+}
+
+double FreeSpace::field_m(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d from_centres =
       (p - grid_.origin) / grid_.resolution_m - Eigen::Vector3d::Constant(0.5);
   const Eigen::Vector3d floor = from_centres.array().floor();
@@ -78,7 +115,7 @@ bool FreeSpace::near_vehicle(const Eigen::Vector3d& p) const {
 
 double FreeSpace::needed_clearance_m(bool near_vehicle) const {
   const double needed = config_.least_m() + config_.planning_slack_m;
-  return near_vehicle ? std::min(needed, clearance_of_vehicle_m_) : needed;
+  return near_vehicle ? std::min(needed, field_of_vehicle_m_) : needed;
 }
 
 double FreeSpace::needed_inside_m(bool near_vehicle) const {
@@ -88,8 +125,8 @@ double FreeSpace::needed_inside_m(bool near_vehicle) const {
 
 double FreeSpace::slack_m(const Eigen::Vector3d& p) const {
   const bool near = near_vehicle(p);
-  return std::min(clearance_m(p) - needed_clearance_m(near),
-                  fence_.inside_m(p) - needed_inside_m(near));
+  return std::min({field_m(p) - needed_clearance_m(near),
+                   fence_.inside_m(p) - needed_inside_m(near), close_slack_m(p)});
 }
 
 bool FreeSpace::free(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
@@ -106,23 +143,27 @@ bool FreeSpace::free(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
 
 bool FreeSpace::safe(const Eigen::Vector3d& p) const {
   const bool near = near_vehicle(p);
-  const double needed =
-      std::max(config_.robot_radius_m, needed_clearance_m(near) - config_.planning_slack_m);
-  return clearance_m(p) >= needed &&
+  const double radius_m = config_.robot_radius_m;
+  const double needed = std::max(near ? std::min(radius_m, field_of_vehicle_m_) : radius_m,
+                                 needed_clearance_m(near) - config_.planning_slack_m);
+  const bool leaves = std::ranges::all_of(close_, [&](const CloseCell& cell) {
+    return grid_.distance_m(cell.index, p) >= config_.leaving_m(cell.now_m);
+  });
+  return leaves && field_m(p) >= needed &&
          fence_.inside_m(p) >= needed_inside_m(near) - config_.planning_slack_m;
 }
 
-bool FreeSpace::vehicle_is_clear() const {
-  return clearance_of_vehicle_m_ >= config_.robot_radius_m;
-}
+bool FreeSpace::vehicle_is_clear() const { return vehicle_is_clear_; }
 
 bool FreeSpace::cell_far_enough(const Eigen::Vector3i& cell, double distance_m) const {
-  if (distance_m < config_.robot_radius_m) return false;  // most cells that are not free end here
+  const double least_m = std::min(config_.robot_radius_m, field_of_vehicle_m_);
+  if (distance_m < least_m) return false;  // most cells that are not free end here
   const Eigen::Vector3d p = grid_.centre_of(cell);
   const bool near = near_vehicle(p);
   const auto column = static_cast<std::size_t>(cell.y() * grid_.size.x() + cell.x());
   const double inside_m = std::min(fence_.inside_band_m(p.z()), inside_polygon_m_[column]);
-  return distance_m >= needed_clearance_m(near) && inside_m >= needed_inside_m(near);
+  return distance_m >= needed_clearance_m(near) && inside_m >= needed_inside_m(near) &&
+         close_slack_m(p) >= 0;
 }
 
 bool FreeSpace::cell_free(const Eigen::Vector3i& cell) const {

@@ -16,7 +16,9 @@ namespace saker::motion {
 ///
 /// Distances are those of the field at the eight cells around, interpolated, which is too long by
 /// at most 3 cm at 0.25 m cells: less than the planning slack. Where the vehicle already is nearer
-/// to something (but not in touch with it), it may stay as near in its ball, so that it can leave.
+/// to something, it may stay as near in its ball, so that it can leave. Cells nearer than its
+/// radius are left out of the field and measured exactly, each by itself: it comes nearer to none
+/// of them.
 class FreeSpace {
  public:
   FreeSpace(const occupancy::OccupancyGrid& snapshot, const ClearanceConfig& config,
@@ -32,9 +34,10 @@ class FreeSpace {
   [[nodiscard]] bool free(const Eigen::Vector3d& p) const { return slack_m(p) >= 0; }
   /// The whole leg, by sphere tracing in steps of at least half a cell.
   [[nodiscard]] bool free(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
-  /// What a finished trajectory must keep: the same without the planning slack, never in touch.
+  /// What a finished trajectory must keep: the same without the planning slack; the radius, or what
+  /// there is of it where the vehicle is.
   [[nodiscard]] bool safe(const Eigen::Vector3d& p) const;
-  /// Whether the vehicle, where it is, touches nothing.
+  /// Whether the vehicle's centre is in a cell that is free.
   [[nodiscard]] bool vehicle_is_clear() const;
 
   /// `free` at the centre of a cell.
@@ -46,6 +49,15 @@ class FreeSpace {
   [[nodiscard]] occupancy::DistanceField occupied_field() const;
 
  private:
+  /// Not free, and about as near to the vehicle as its radius.
+  struct CloseCell {
+    Eigen::Vector3i index;
+    double now_m;  // from its surface to the vehicle
+  };
+
+  void take_close_cells();
+  [[nodiscard]] double field_m(const Eigen::Vector3d& p) const;
+  [[nodiscard]] double close_slack_m(const Eigen::Vector3d& p) const;
   [[nodiscard]] bool near_vehicle(const Eigen::Vector3d& p) const;
   [[nodiscard]] double needed_clearance_m(bool near_vehicle) const;
   [[nodiscard]] double needed_inside_m(bool near_vehicle) const;
@@ -54,10 +66,12 @@ class FreeSpace {
   ClearanceConfig config_;
   const Geofence& fence_;
   Eigen::Vector3d vehicle_;
-  occupancy::OccupancyGrid grid_;  // with the exempted unknown cells free
+  occupancy::OccupancyGrid grid_;  // with the exempted unknown and the close cells free
+  std::vector<CloseCell> close_;
+  bool vehicle_is_clear_ = false;
   occupancy::DistanceField field_;
   std::vector<double> inside_polygon_m_;  // of the geofence, a column of cells; x runs fastest
-  double clearance_of_vehicle_m_ = NAN;
+  double field_of_vehicle_m_ = NAN;
   double inside_of_vehicle_m_ = NAN;
 };
 

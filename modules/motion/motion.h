@@ -62,7 +62,7 @@ struct PlanRequest {
 enum class PlanStatus {
   ok,
   bad_request,    ///< a number that is not finite, no snapshot, or a state beyond the limits
-  start_blocked,  ///< it touches something, or cannot brake straight on without
+  start_blocked,  ///< in an occupied cell, or it cannot brake straight on
   goal_outside,   ///< the goal is outside of the geofence
   goal_blocked,   ///< the goal is in an obstacle, nothing free near it
   no_path,        ///< obstacles and geofence enclose the start or the goal

@@ -54,26 +54,28 @@ struct Near {
   }
 };
 
-/// The nearest ones of both kinds.
+/// The nearest ones of both kinds among those that are too near.
 struct Surroundings {
   Near occupied, unknown;
+  double clearance_m = std::numeric_limits<double>::infinity();  ///< to what is occupied
 
-  [[nodiscard]] double distance_m() const {
-    return std::min(occupied.distance_m, unknown.distance_m);
+  [[nodiscard]] bool clear() const {
+    return std::isinf(occupied.distance_m) && std::isinf(unknown.distance_m);
   }
 };
 
 class Checker {
  public:
   Checker(const OccupancyGrid& grid, const Exemption& exemption, const ClearanceConfig& clearance,
-          const VerdictConfig& config)
+          const VerdictConfig& config, const Vector3d& begin)
       : grid_(grid),
         exemption_(exemption),
         clearance_(clearance),
         config_(config),
         field_(grid, config.clearance_reach_m, occupancy::UnknownCells::free),
-        too_near_already_(exemption.vehicle.allFinite() &&
-                          around(exemption.vehicle).distance_m() < clearance.least_m()) {}
+        begin_(in_ball(begin) ? begin : exemption.vehicle),
+        leaves_(exemption.vehicle.allFinite() &&
+                !(around(exemption.vehicle, false).clear() && around(begin_, false).clear())) {}
 
   void check(const Trajectory& trajectory, Verdict& verdict) const {
     const Time end = trajectory.end();
@@ -98,43 +100,48 @@ class Checker {
       verdict.reason = VerdictReason::unknown;
       return false;
     }
-    const Surroundings near = around(p);
-    const double clearance = std::min({near.occupied.distance_m, config_.clearance_reach_m,
+    const Surroundings near = around(p, leaves_ && in_ball(p));
+    const double clearance = std::min({near.clearance_m, config_.clearance_reach_m,
                                        std::max(field_.at(p), clearance_.least_m())});
     verdict.clearance_m = std::fmin(verdict.clearance_m, clearance);
-    if (near.distance_m() >= needed(p)) return true;
+    if (near.clear()) return true;
     const bool occupied = near.occupied.distance_m <= near.unknown.distance_m;
     verdict.reason = occupied ? VerdictReason::occupied : VerdictReason::unknown;
     verdict.first_hit = occupied ? near.occupied.centre : near.unknown.centre;
     return false;
   }
 
-  [[nodiscard]] double needed(const Vector3d& p) const {
-    const bool leaving =
-        too_near_already_ && (p - exemption_.vehicle).norm() <= clearance_.vehicle_ball_m;
-    return leaving ? clearance_.robot_radius_m : clearance_.least_m();
+  [[nodiscard]] bool in_ball(const Vector3d& p) const {
+    return (p - exemption_.vehicle).norm() <= clearance_.vehicle_ball_m;
   }
 
-  /// What lies within radius and margin of `p`.
-  [[nodiscard]] Surroundings around(const Vector3d& p) const {
+  /// m, that the body keeps from a cell on its way out.
+  [[nodiscard]] double needed_leaving_m(const Vector3i& index) const {
+    const double from_vehicle_m = grid_.distance_m(index, exemption_.vehicle);
+    return clearance_.leaving_m(std::min(from_vehicle_m, grid_.distance_m(index, begin_)));
+  }
+
+  /// What is too near to `p`: within radius and margin, or what is kept on the way out.
+  [[nodiscard]] Surroundings around(const Vector3d& p, bool leaving) const {
     Surroundings near;
     const double reach = clearance_.least_m();
     const Vector3i low = grid_.index_of((p.array() - reach).matrix());
     const Vector3i high = grid_.index_of((p.array() + reach).matrix());
     for (int z = low.z(); z <= high.z(); ++z)
       for (int y = low.y(); y <= high.y(); ++y)
-        for (int x = low.x(); x <= high.x(); ++x) take({x, y, z}, p, near);
+        for (int x = low.x(); x <= high.x(); ++x) take({x, y, z}, p, leaving, near);
     return near;
   }
 
-  void take(const Vector3i& index, const Vector3d& p, Surroundings& near) const {
+  void take(const Vector3i& index, const Vector3d& p, bool leaving, Surroundings& near) const {
     const Cell cell = grid_.contains(index) ? grid_.cells[grid_.offset(index)] : Cell::unknown;
     if (cell == Cell::free) return;
     const Vector3d centre = grid_.centre_of(index);
     if (cell == Cell::unknown && exemption_.contains(centre, clearance_)) return;
-    const double distance =
-        ((centre - p).cwiseAbs().array() - grid_.resolution_m / 2).max(0).matrix().norm();
+    const double distance = grid_.distance_m(index, p);
     if (distance >= clearance_.least_m()) return;
+    if (cell == Cell::occupied) near.clearance_m = std::min(near.clearance_m, distance);
+    if (leaving && distance >= needed_leaving_m(index)) return;
     (cell == Cell::occupied ? near.occupied : near.unknown).take(distance, centre);
   }
 
@@ -143,7 +150,8 @@ class Checker {
   const ClearanceConfig& clearance_;
   const VerdictConfig& config_;
   occupancy::DistanceField field_;
-  bool too_near_already_;
+  Vector3d begin_;  // of what is left of the trajectory; the vehicle, if it is nowhere near
+  bool leaves_;     // something is nearer than it should be already
 };
 
 }  // namespace
@@ -164,7 +172,8 @@ Verdict check(const Trajectory& trajectory, Time now, const OccupancyGrid& grid,
   verdict.trajectory_id = trajectory.id;
   verdict.clear_until = now;
   if (trajectory.empty()) return verdict;
-  Checker(grid, exemption, clearance, config).check(trajectory, verdict);
+  const Vector3d begin = trajectory.sample(std::max(now, trajectory.start)).position;
+  Checker(grid, exemption, clearance, config, begin).check(trajectory, verdict);
   return verdict;
 }
 

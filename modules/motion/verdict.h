@@ -32,9 +32,11 @@ struct VerdictConfig {
 /// margin from every cell that is occupied, and from every one that was never seen and is not
 /// exempt; what is outside of the grid was never seen.
 ///
-/// Distances are exact, to the surfaces of cells. Where the vehicle is nearer than the margin
-/// already, it keeps the radius alone within its ball, so that it can leave. Frames: all `odom`.
-/// Cost: some µs a sample of 5 cm, and a distance field of the grid. Never throws.
+/// Distances are exact, to the surfaces of cells. Where the vehicle, or the trajectory at `now`, is
+/// nearer than the margin already, the body keeps the radius alone within the vehicle's ball, and
+/// from cells that are nearer than that what there is (ClearanceConfig::leaving_m), so that it can
+/// leave. Frames: all `odom`. Cost: some µs a sample of 5 cm, and a distance field of the grid.
+/// Never throws.
 /// \param grid the map around `remaining_box`
 [[nodiscard]] Verdict check(const Trajectory& trajectory, Time now,
                             const occupancy::OccupancyGrid& grid, const Exemption& exemption,

@@ -32,6 +32,11 @@ struct OccupancyGrid {
   [[nodiscard]] Eigen::Vector3d centre_of(const Eigen::Vector3i& i) const {
     return origin + resolution_m * (i.cast<double>().array() + 0.5).matrix();
   }
+  /// m, from `p` to the surface of a cell, of one outside of the block too; 0 inside.
+  [[nodiscard]] double distance_m(const Eigen::Vector3i& i, const Eigen::Vector3d& p) const {
+    const Eigen::Array3d beyond = (centre_of(i) - p).cwiseAbs().array() - resolution_m / 2;
+    return beyond.max(0).matrix().norm();
+  }
   /// What was never seen is not free: outside the block everything is unknown.
   [[nodiscard]] Cell at(const Eigen::Vector3d& p) const {
     if (!p.allFinite()) return Cell::unknown;

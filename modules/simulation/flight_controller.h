@@ -61,7 +61,8 @@ struct FlightControllerConfig {
 ///
 ///     idle → takeoff → hold ⇄ guided        setpoints expire: hold; for hold_s: land
 ///     any of these → land                   command, battery
-///     any of these → descend                odometry stops or is rejected; never back
+///     any of these → descend                odometry stops or is rejected; never back: who was
+///                                           silent or lied is not trusted, and it has drifted
 ///     land, descend → idle, disarmed        touchdown
 ///
 /// A hold command lasts until a setpoint with a later stamp. Cost: about 2 µs an update.

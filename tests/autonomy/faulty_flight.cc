@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lidar/imu_packet.h"
+
 namespace saker::autonomy {
 namespace {
 
@@ -47,6 +49,11 @@ void RecordedPlant::step_to(Time time) {
 std::vector<SensorPacket> RecordedPlant::take_packets() {
   auto packets = SimulatedPlant::take_packets();
   if (link == Link::gone) packets.clear();
+  if (link == Link::blind) {
+    std::erase_if(packets, [](const SensorPacket& packet) {
+      return packet.payload.size() != lidar::kImuPacketBytes;
+    });
+  }
   return packets;
 }
 
@@ -72,20 +79,30 @@ void RecordedPlant::send(const Command& command) {
   if (link == Link::up) SimulatedPlant::send(command);
 }
 
+void MortalChecker::begin() {
+  checker_.emplace(config_.local_checker, config_.collision_checker, config_.motion.clearance);
+}
+
+void MortalChecker::step_to(Time time) {
+  if (checker_) checker_->step_to(time);
+}
+void MortalChecker::send(const RegisteredScan& scan) {
+  if (checker_) checker_->send(scan);
+}
+void MortalChecker::send(const motion::Trajectory& trajectory) {
+  if (checker_) checker_->send(trajectory);
+}
+
 std::optional<motion::Verdict> MortalChecker::take_verdict() {
-  const auto verdict = LocalChecker::take_verdict();
-  return dead ? std::nullopt : verdict;
+  return checker_ ? checker_->take_verdict() : std::nullopt;
 }
 
 std::shared_ptr<const occupancy::OccupancyGrid> MortalChecker::take_grid() {
-  auto grid = LocalChecker::take_grid();
-  return dead ? nullptr : grid;
+  return checker_ ? checker_->take_grid() : nullptr;
 }
 
 FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
-    : vehicle_(scenario(std::move(events)), 1),
-      plant(vehicle_),
-      checker(config_.local_checker, config_.collision_checker, config_.motion.clearance) {
+    : vehicle_(scenario(std::move(events)), 1), plant(vehicle_), checker(config_) {
   const simulation::MissionFence& fence = vehicle_.site().fence;
   config_.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
   mission_ = std::make_unique<MissionLockstep>(config_, vehicle_.sensor(), vehicle_.site().prior,
@@ -93,8 +110,13 @@ FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
 }
 
 bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
-                            const std::function<void()>& fault) {
-  plant.watch = [this, when, fault](const simulation::VehicleTruth& truth) {
+                            const std::function<void()>& fault, double lasts_s,
+                            const std::function<void()>& over) {
+  plant.watch = [=, this, lasts = true](const simulation::VehicleTruth& truth) mutable {
+    if (fault_ != 0 && lasts && to_seconds(truth.stamp - fault_) >= lasts_s) {
+      lasts = false;
+      over();
+    }
     if (fault_ != 0 || !when(truth)) return;
     fault_ = truth.stamp;
     fault();
@@ -106,10 +128,15 @@ bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTr
 }
 
 bool FaultyFlight::fly_fast_into(const std::function<void()>& fault) {
+  return fly_fast_into(fault, INFINITY, [] {});
+}
+
+bool FaultyFlight::fly_fast_into(const std::function<void()>& fault, double lasts_s,
+                                 const std::function<void()>& over) {
   const auto fast = [](const simulation::VehicleTruth& truth) {
     return truth.velocity.head<2>().norm() > kFast;
   };
-  return fly_into(fast, fault);
+  return fly_into(fast, fault, lasts_s, over);
 }
 
 bool FaultyFlight::fly_into_event() {
@@ -135,6 +162,17 @@ double FaultyFlight::said_after(Cause cause) const {
     if (event.cause == cause && event.stamp >= fault_) return to_seconds(event.stamp - fault_);
   }
   return NAN;
+}
+
+bool FaultyFlight::flies_fast_again(double most_s) {
+  const Time end = plant.now() + from_seconds(most_s);
+  bool fast = false;
+  plant.watch = [&](const simulation::VehicleTruth& truth) {
+    fast = fast || truth.velocity.head<2>().norm() > kFast;
+  };
+  while (!fast && plant.now() < end && result_.phase != MissionPhase::done) go_on(kSlice_s);
+  plant.watch = nullptr;
+  return fast;
 }
 
 std::uint32_t FaultyFlight::faults() const {

@@ -15,8 +15,9 @@ class RecordedPlant : public tools::SimulatedPlant {
  public:
   enum class Link {
     up,
-    deaf,  ///< nothing reaches the vehicle: the executive has died
-    gone   ///< nothing comes from it either: the plant has died
+    deaf,   ///< nothing reaches the vehicle: the executive has died
+    blind,  ///< no scans come from it, all else does
+    gone    ///< nothing comes from it either: the plant has died
   };
   struct Row {
     Time stamp = 0;
@@ -43,14 +44,23 @@ class RecordedPlant : public tools::SimulatedPlant {
   simulation::SimulatedVehicle& vehicle_;
 };
 
-/// The collision checker, that can die.
-class MortalChecker : public LocalChecker {
+/// The collision checker, that can die, and begin again with nothing.
+class MortalChecker : public SteppedChecker {
  public:
-  using LocalChecker::LocalChecker;
+  explicit MortalChecker(const Config& config) : config_(config) { begin(); }
+
+  void begin();
+  void die() { checker_.reset(); }
+
+  void step_to(Time time) override;
+  void send(const RegisteredScan& scan) override;
+  void send(const motion::Trajectory& trajectory) override;
   [[nodiscard]] std::optional<motion::Verdict> take_verdict() override;
   [[nodiscard]] std::shared_ptr<const occupancy::OccupancyGrid> take_grid() override;
 
-  bool dead = false;
+ private:
+  const Config& config_;
+  std::optional<LocalChecker> checker_;
 };
 
 /// A small mission in lockstep that something goes wrong with while it flies.
@@ -60,6 +70,9 @@ class FaultyFlight {
 
   /// The fault comes when it flies faster than `kFast`; false when it never does.
   bool fly_fast_into(const std::function<void()>& fault);
+  /// The same with a fault that is over after so many seconds.
+  bool fly_fast_into(const std::function<void()>& fault, double lasts_s,
+                     const std::function<void()>& over);
   /// The fault is the scenario's event; false when it never begins.
   bool fly_into_event();
   /// Goes on for so long after the fault, or until the mission is done.
@@ -69,6 +82,8 @@ class FaultyFlight {
   [[nodiscard]] double settled_after() const;
   /// Seconds from the fault until the cause was said; NaN: never.
   [[nodiscard]] double said_after(Cause cause) const;
+  /// Goes on until it flies fast again, for so long at most. \return whether it did
+  bool flies_fast_again(double most_s);
   /// Of the vehicle, since the fault: all bits that were ever set.
   [[nodiscard]] std::uint32_t faults() const;
   [[nodiscard]] int collisions() const { return vehicle_.truth().collisions; }
@@ -78,7 +93,8 @@ class FaultyFlight {
 
  private:
   bool fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
-                const std::function<void()>& fault);
+                const std::function<void()>& fault, double lasts_s = INFINITY,
+                const std::function<void()>& over = {});
 
   Config config_;
   core::Timings timings_;

@@ -56,6 +56,19 @@ TEST(Mapping, MakesNothingOfAnEmptyWindow) {
   EXPECT_EQ(mapping.cycle({}, Matrix6d::Identity()), nullptr);
 }
 
+TEST(Mapping, SaysWhichShareOfTheNewestScanHasAClass) {
+  Mapping mapping({}, {}, objects::ClassTable{});
+  const auto points = std::make_shared<std::vector<Eigen::Vector3f>>(4, Eigen::Vector3f(5, 0, 0));
+  const auto labels = std::make_shared<lidar::Labels>();
+  labels->classes = {0, 1, 0, 0};
+  labels->probability = {0, 0.9F, 0, 0};
+  const std::vector<detection::LabelledScan> window{
+      {kNanosecondsPerSecond, SE3::Identity(), points, labels}};
+  EXPECT_DOUBLE_EQ(mapping.cycle(window, Matrix6d::Identity())->classified_share, 0.25);
+  labels->classes = {0, 0, 0, 0};
+  EXPECT_DOUBLE_EQ(mapping.cycle(window, Matrix6d::Identity())->classified_share, 0);
+}
+
 TEST(Ingestion, RefusesToTakeOpenBeamsForReturns) {
   const auto sensor =
       lidar::SensorInfo::make_os1(16, 512, lidar::PacketProfile::kRng19Rfl8Sig16Nir16);

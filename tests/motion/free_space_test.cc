@@ -91,7 +91,17 @@ TEST(FreeSpace, LetsTheVehicleStayAsNearAsItIsButNotNearer) {
 }
 
 TEST(FreeSpace, KnowsWhenTheVehicleTouchesSomething) {
-  EXPECT_FALSE(space_of(with_wall(), {.vehicle = {4.7, 0, 5}}).vehicle_is_clear());
+  EXPECT_FALSE(space_of(with_wall(), {.vehicle = {5.1, 0, 5}}).vehicle_is_clear());
+}
+
+TEST(FreeSpace, ComesNoNearerToACellThanItIsWithinTheRadius) {
+  const FreeSpace space = space_of(with_wall(), {.vehicle = {4.7, 0, 5}});
+  ASSERT_TRUE(space.vehicle_is_clear());
+  EXPECT_NEAR(space.clearance_m({4.7, 0, 5}), 0.3, 1e-6);
+  EXPECT_TRUE(space.free({4.7, 0, 5}, {4.2, 0, 5})) << "straight away from it";
+  EXPECT_FALSE(space.free({4.75, 0, 5}));
+  EXPECT_FALSE(space.safe({4.75, 0, 5}));
+  EXPECT_FALSE(space.safe({4.7, 0.8, 5})) << "there are other cells, nearer than the radius";
 }
 
 TEST(FreeSpace, IsNotFreeNearTheGeofence) {

@@ -184,8 +184,8 @@ TEST(MotionPlanner, StaysInsideTheGeofence) {
 
 TEST(MotionPlanner, RefusesAStartInTouchWithAnObstacle) {
   World world = free_block();
-  world.add(Box{{0.25, -5, 0}, {1, 5, 10}});
-  EXPECT_EQ(plan(world, {0, 0, 3}, {-8, 0, 3}).status, PlanStatus::start_blocked);
+  world.add(Box{{-0.25, -5, 0}, {1, 5, 10}});
+  EXPECT_EQ(plan(world, {-0.1, 0, 3}, {-8, 0, 3}).status, PlanStatus::start_blocked);
 }
 
 TEST(MotionPlanner, LeavesAPlaceInsideTheMarginOfAnObstacle) {

@@ -176,9 +176,32 @@ TEST(Verdict, AVehicleNearerThanTheMarginMayLeaveButTouchNothing) {
   Exemption exemption;
   exemption.vehicle = {0, 0, 0};
   EXPECT_TRUE(look(straight(0, 8, 1), grid, kStart, exemption).clear);
-  EXPECT_FALSE(look(straight(0, 8, 1, 0.2), grid, kStart, exemption).clear);
+  EXPECT_FALSE(look(straight(-1, 8, 1, 0.2), grid, kStart, exemption).clear);
   set(grid, {5.1, 0.6, 0.1}, Cell::occupied);  // farther away the margin holds
   EXPECT_FALSE(look(straight(0, 8, 1), grid, kStart, exemption).clear);
+}
+
+TEST(Verdict, AVehicleInsideItsRadiusMayLeaveAndStayButNotComeNearer) {
+  OccupancyGrid grid = free_grid();
+  set(grid, {0.1, 0.35, 0.1}, Cell::occupied);  // from y = 0.25
+  Exemption exemption;
+  exemption.vehicle = {0, 0, 0};
+  EXPECT_TRUE(look(straight(0, 8, 1), grid, kStart, exemption).clear);
+  EXPECT_TRUE(look(straight(0, 0.01, 1), grid, kStart, exemption).clear) << "it stays";
+  EXPECT_FALSE(look(straight(-1, 8, 1, 0.04), grid, kStart, exemption).clear);
+  set(grid, {0.6, 0.6, 0.1}, Cell::occupied);  // another one, 0.5 m off the way
+  EXPECT_TRUE(look(straight(0, 8, 1), grid, kStart, exemption).clear);
+  set(grid, {0.6, 0.35, 0.1}, Cell::occupied);  // and one within the radius
+  EXPECT_FALSE(look(straight(0, 8, 1), grid, kStart, exemption).clear);
+}
+
+TEST(Verdict, AVehicleBesideItsSetpointMayFollowATrajectoryThatLeaves) {
+  OccupancyGrid grid = free_grid();
+  set(grid, {0.1, 0.35, 0.1}, Cell::occupied);  // 0.25 m from where the trajectory begins
+  Exemption exemption;
+  exemption.vehicle = {0, -0.2, 0};
+  EXPECT_TRUE(look(straight(0, 8, 1), grid, kStart, exemption).clear);
+  EXPECT_FALSE(look(straight(0, 8, 1, 0.3), grid, kStart, exemption).clear) << "in touch";
 }
 
 TEST(Verdict, ATrajectoryThatWasNotLookedAtToItsEndIsNotClear) {

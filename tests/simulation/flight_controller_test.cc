@@ -111,6 +111,7 @@ TEST(FlightController, ItDoesNotComeBackFromDescending) {
   vehicle.guide({0, 0, 3}, 1);
   EXPECT_EQ(vehicle.state().mode, descend);
   EXPECT_EQ(vehicle.command(CommandKind::hold).reason, "no odometry to hold by");
+  EXPECT_TRUE(vehicle.run_until([&] { return !vehicle.state().armed; }, 15));
 }
 
 /// What odometry may say instead of the truth; t: seconds since it began to lie.

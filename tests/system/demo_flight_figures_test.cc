@@ -75,6 +75,14 @@ TEST_F(FlightFigures, ProcessorTimeIsASecondOfFlight) {
   EXPECT_DOUBLE_EQ(figures()["simulator_cpu"].get<double>(), 0.25);
 }
 
+TEST_F(FlightFigures, ProcessorTimeOfTheCollisionCheckerIsSaidWhereItIsKnown) {
+  EXPECT_TRUE(figures()["checker_cpu"].is_null());
+  EXPECT_EQ(flight_text(figures(), {}).find("collision checker"), std::string::npos);
+  flight_.checker = {{"wall_s", 50.0}, {"cpu_s", 15.0}};
+  EXPECT_DOUBLE_EQ(figures()["checker_cpu"].get<double>(), 0.3);
+  EXPECT_NE(flight_text(figures(), {}).find("collision checker: 0.30"), std::string::npos);
+}
+
 TEST_F(FlightFigures, AFlightThatFoundAllWithinTheLimitsDoesNotFallShort) {
   flight_.map.objects.push_back(vehicle(1, 20, 4.2, table_));
   EXPECT_TRUE(shortfalls_of(figures(), {}).empty());

@@ -17,6 +17,9 @@ double value(const Json& figures, const char* key) {
   return entry.is_number() ? entry.get<double>() : kNone;
 }
 
+/// Processor seconds a second of a process.
+double cpu_of(const Json& process) { return value(process, "cpu_s") / value(process, "wall_s"); }
+
 /// Ids of those of the prior map that are there.
 std::vector<int> true_targets(const FlownMission& flight) {
   const auto& truth = flight.truth.map.objects;
@@ -77,8 +80,11 @@ std::string loop_rows(const Json& figures) {
                         loop["runs"].get<long>(), loop["late"].get<long>(),
                         value(loop, "worst_late_ms"), value(loop, "cpu_s") / wall_s);
   }
-  return text + fmt::format("executive, all threads: {:.2f} CPU s a second; simulator: {:.2f}\n",
-                            value(figures, "cpu"), value(figures, "simulator_cpu"));
+  text += fmt::format("executive, all threads: {:.2f} CPU s a second; ", value(figures, "cpu"));
+  if (!figures.at("checker_cpu").is_null()) {
+    text += fmt::format("collision checker: {:.2f}; ", value(figures, "checker_cpu"));
+  }
+  return text + fmt::format("simulator: {:.2f}\n", value(figures, "simulator_cpu"));
 }
 
 std::string flown(const Json& figures) {
@@ -109,8 +115,9 @@ Json flight_figures(const FlownMission& flight, const objects::ClassTable& table
     figures[key] = flight.simulator.at(key);
   }
   figures["wall_s"] = flight.loops.at("wall_s");
-  figures["cpu"] = value(flight.loops, "cpu_s") / value(flight.loops, "wall_s");
-  figures["simulator_cpu"] = value(flight.simulator, "cpu_s") / value(flight.simulator, "wall_s");
+  figures["cpu"] = cpu_of(flight.loops);
+  figures["checker_cpu"] = flight.checker.is_null() ? Json() : Json(cpu_of(flight.checker));
+  figures["simulator_cpu"] = cpu_of(flight.simulator);
   figures["loops"] = flight.loops.at("loops");
   return figures;
 } catch (const Json::exception& error) {

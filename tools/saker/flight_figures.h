@@ -17,6 +17,7 @@ struct FlownMission {
   Truth truth;
   objects::ObjectMap prior;  ///< its ids are the truth's
   Json simulator;            ///< sim.json of saker-sim
+  Json checker = {};         ///< loops.json of saker-collision-checker; null: it left none
 };
 
 /// Above them a flight falls short.

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportOptions {
-  std::string executive, simulator;
+  std::string executive, simulator, checker;
   FlightLimits limits;
 };
 
@@ -36,7 +36,9 @@ FlownMission read_flight(const ReportOptions& options, const objects::ClassTable
           .loops = read_json(executive / "loops.json"),
           .truth = read_truth(simulator / "truth.json", table),
           .prior = objects::read_map(simulator / "prior.json", table),
-          .simulator = read_json(simulator / "sim.json")};
+          .simulator = read_json(simulator / "sim.json"),
+          .checker = options.checker.empty() ? Json()
+                                             : read_json(fs::path(options.checker) / "loops.json")};
 }
 
 void draw(const fs::path& file, const FlownMission& flight, const objects::ClassTable& table) {
@@ -74,10 +76,14 @@ void add_flight_report(Commands& commands) {
            "a mission that was flown in real time against the truth: map, trajectory, clearance, "
            "loops",
        .output = Output::folder,
-       .example = "saker flight-report mission/executive mission/simulator -o report"},
+       .example = "saker flight-report mission/executive mission/simulator --checker "
+                  "mission/checker -o report"},
       [options](const CommonOptions& common) { return report(*options, common); });
   app.add_option("FLIGHT", options->executive, "what saker-flight left")->required();
   app.add_option("SIMULATOR", options->simulator, "what saker-sim left")->required();
+  app.add_option("--checker", options->checker,
+                 "what saker-collision-checker left; without it its processor time is not known")
+      ->type_name("FOLDER");
   app.add_option("--most-size-mae", options->limits.size_mae_m,
                  "of length and width, m; above, the flight falls short")
       ->capture_default_str();
