@@ -67,7 +67,8 @@ IngestedScan Ingestion::register_scan(lidar::Frame frame) {
   }
   result.registered = {
       estimate.stamp, *T_start_odometry_ * estimate.T_odom_lidar,
-      std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points))};
+      std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points)),
+      std::shared_ptr<const std::vector<float>>(result.scan, &result.scan->reflectivity)};
   result.covariance = estimate.covariance;
   result.status = estimate.status;
   result.reason = estimate.reason;
