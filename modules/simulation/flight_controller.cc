@@ -26,6 +26,7 @@ FlightController::FlightController(const FlightControllerConfig& config,
       estimator_(config.estimator) {}
 
 void FlightController::receive(const VehicleOdometry& odometry) {
+  if (lied_to_) return;
   const std::optional<SE3> T_after_before = estimator_.receive(odometry);
   if (!T_after_before) return;
   reference_.position = *T_after_before * reference_.position;
@@ -81,16 +82,17 @@ void FlightController::enter(VehicleMode mode) {
   if (mode != VehicleMode::descend) return;
   descend_height_ = estimator_.inertial().height();
   descend_yaw_ = core::yaw(estimator_.inertial().attitude());
-  // What lied may have left a velocity that is wrong by the gate, but not by more.
-  const bool lied = (estimator_.faults() & kOdometryRejected) != 0;
-  const double most_wrong = config_.estimator.odometry.velocity_gate_mps;
-  coasts_ = !lied || estimator_.odometry().velocity().norm() > most_wrong;
-  if (!coasts_) controller_.forget();
+  coasts_ = true;
+  lied_to_ = (estimator_.faults() & kOdometryRejected) != 0;
+  if (!lied_to_) return;
+  estimator_.take_back();
+  controller_.forget();
 }
 
 void FlightController::disarm() {
   armed_ = false;
   setpoint_expired_ = false;
+  lied_to_ = false;
   setpoint_.reset();
   controller_.forget();
   enter(VehicleMode::idle);

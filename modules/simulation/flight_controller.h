@@ -128,6 +128,7 @@ class FlightController {
   double descend_height_ = NAN;  // m, barometer: the reference of mode descend
   double descend_yaw_ = 0;
   bool coasts_ = false;
+  bool lied_to_ = false;  // by odometry, in this flight
   double standing_s_ = 0;
   double thrust_ = 0;  // N, commanded last
 

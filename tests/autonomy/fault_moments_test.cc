@@ -73,7 +73,7 @@ struct Fault {
   std::optional<ScenarioEventKind> event;  // else the test's own
   RecordedPlant::Link link = RecordedPlant::Link::up;
   bool checker_dies = false;
-  bool goes_on = false;  // stops for a while only
+  bool goes_on = false;  // it only stops for a while, then finds a way around
 };
 
 std::vector<Fault> faults() {
@@ -100,6 +100,10 @@ TEST_P(FaultAtMoments, AtRestOrLandingWithinTwoSecondsAndStaysSo) {
   const Fault fault = faults()[GetParam()];
   std::string row = fmt::format("| {} |", fault.name);
   for (const Moment& moment : moments()) {
+    if (fault.goes_on && &moment == &moments().back()) {  // nothing is in the way of a climb
+      row += " – |";
+      continue;
+    }
     SCOPED_TRACE(fmt::format("{} while {} ({:.2f} s)", fault.name, moment.name, moment.flown_s));
     FaultyFlight flight(events_of(fault, moment.flown_s));
     const bool begun = flight.fly_into_moment(moment.flown_s, [&] {

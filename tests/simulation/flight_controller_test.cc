@@ -208,6 +208,8 @@ TEST(FlightController, FrozenOdometryInFlightIsRejected) {
     if (vehicle.state().mode == descend) descended_after = (i - 100) * 0.02;
   }
   EXPECT_LT(descended_after, 2.0);
+  vehicle.run(1.5);
+  EXPECT_LT(vehicle.body.state().velocity.head<2>().norm(), 0.3);  // what was a lie is taken back
 }
 
 TEST(FlightController, AnnouncedJumpsOfOdomMoveTheReferenceAlong) {
