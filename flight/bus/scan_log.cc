@@ -5,17 +5,24 @@
 #include <array>
 #include <fstream>
 
+#include "autonomy/open_beams.h"
 #include "core/error.h"
 
 namespace saker::flight {
 namespace {
 
+// Deskewing moves the points of open beams by less than this.
+constexpr float kMostDeskewing_m = 5;
 constexpr std::array<unsigned char, 4> kSyncWord = {0xed, 0xa1, 0xda, 0x01};
 
 std::optional<scan_t> scan_of(const lcm::LogEvent& event) {
   scan_t message{};
   if (message.decode(event.data, 0, event.datalen) < 0) return std::nullopt;
   return message;
+}
+
+bool is_open_beam(const Eigen::Vector3f& point) {
+  return point.norm() > autonomy::OpenBeams::kOpen_m - kMostDeskewing_m;
 }
 
 bool is_scan_channel(const std::string& channel) {
@@ -64,8 +71,11 @@ std::optional<lidar::Frame> ScanLog::next() {
     lidar::Frame frame;
     frame.name = fmt::format("{:06}", scans_++);
     frame.scan.stamp = scan->stamp;
-    frame.scan.points = *scan->points;
-    frame.scan.reflectivity.assign(frame.scan.size(), 0);
+    for (std::size_t i = 0; i < scan->points->size(); ++i) {
+      if (is_open_beam((*scan->points)[i])) continue;
+      frame.scan.points.push_back((*scan->points)[i]);
+      frame.scan.reflectivity.push_back((*scan->reflectivity)[i]);
+    }
     frame.scan.offset_ns.assign(frame.scan.size(), 0);
     return frame;
   }

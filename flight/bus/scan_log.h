@@ -13,8 +13,9 @@ namespace saker::flight {
 /// Scans of a flown mission: the `_SCAN` messages in a log of lcm-logger, which has to listen to
 /// the bulk network (bus.bulk_url).
 ///
-/// The scans are deskewed already and quantised to 1 cm, without reflectivity, inertial samples and
-/// point times; their registered poses are left out, so that a replay registers them again. Counted
+/// The scans are deskewed already, so that their points need no times, quantised to 1 cm, not
+/// organised, without inertial samples; their registered poses and the points that stand for open
+/// beams are left out, so that a replay registers and labels what the sensor saw. Counted
 /// and passed over: messages that cannot be decoded (bad_packets), scans of which a chunk is
 /// missing (lost_frames).
 class ScanLog : public lidar::ScanSource {

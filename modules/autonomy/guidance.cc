@@ -8,9 +8,6 @@
 namespace saker::autonomy {
 namespace {
 
-constexpr double kAtRest_mps = 0.02;
-constexpr int kMostStopSteps = 2000;  // 100 s of steps of 50 ms: no stop lasts that long
-
 motion::MotionState at_rest(motion::MotionState state) {
   state.velocity.setZero();
   state.acceleration.setZero();
@@ -53,31 +50,6 @@ motion::Trajectory spliced(const motion::Trajectory& first, const motion::Trajec
   return result;
 }
 
-motion::Trajectory slowed_down(const motion::Trajectory& trajectory, Time now, double deceleration,
-                               double step_s) {
-  motion::Trajectory result;
-  result.start = now;
-  result.step_s = step_s;
-  const double speed = trajectory.sample(now).velocity.norm();
-  const double turn = std::abs(trajectory.sample(now).yaw_rate);
-  // The trajectory's own time runs at `rate`: 1 now, 0 at the end; what only turns takes a moment.
-  const double slowing = deceleration / std::max({speed, turn, deceleration * step_s});
-  double rate = 1;
-  double along_s = 0;
-  for (int i = 0; i < kMostStopSteps && rate > 0; ++i) {
-    motion::MotionState state = trajectory.sample(now + from_seconds(along_s));
-    state.acceleration = rate * rate * state.acceleration - slowing * state.velocity;
-    state.velocity *= rate;
-    state.yaw_rate *= rate;
-    result.states.push_back(state);
-    const double next = std::max(0.0, rate - slowing * step_s);
-    along_s += (rate + next) / 2 * step_s;
-    rate = next;
-  }
-  result.states.push_back(at_rest(trajectory.sample(now + from_seconds(along_s))));
-  return result;
-}
-
 Guidance::Guidance(const GuidanceConfig& config) : config_(core::checked(config, "guidance")) {}
 
 void Guidance::replace(motion::Trajectory trajectory, Time now) {
@@ -104,7 +76,7 @@ CommitStatus Guidance::commit(const Proposal& proposal, Time now) {
 }
 
 void Guidance::stop(Time now, std::string reason) {
-  replace(slowed_down(*committed_, now, config_.stop_acceleration_mps2, config_.step_s), now);
+  replace(motion::braked(*committed_, now, config_.braking), now);
   stopping_ = true;
   ++last_stop_.count;
   last_stop_.reason = std::move(reason);
@@ -119,11 +91,8 @@ std::optional<std::string> Guidance::reason_to_stop(
     return std::nullopt;  // the checker has not met it yet
   }
   if (verdict->clear) return std::nullopt;
-  const motion::MotionState state = committed_->sample(now);
-  const double to_stop_s = state.velocity.norm() / config_.stop_acceleration_mps2;
-  // Slowing down at a constant rate takes half of that of the trajectory's own time.
-  const double needed_s = to_stop_s / 2 + config_.stop_margin_s;
-  if (to_seconds(verdict->clear_until - now) > needed_s) return std::nullopt;
+  const Time rest = motion::stands_at(*committed_, now, config_.braking);
+  if (rest + from_seconds(config_.stop_margin_s) < verdict->clear_until) return std::nullopt;
   return fmt::format("blocked at ({:.1f}, {:.1f}, {:.1f})", verdict->first_hit.x(),
                      verdict->first_hit.y(), verdict->first_hit.z());
 }

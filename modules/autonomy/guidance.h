@@ -6,6 +6,7 @@
 
 #include "core/config.h"
 #include "core/vehicle.h"
+#include "motion/braking.h"
 #include "motion/trajectory.h"
 
 /// Guidance, 50 Hz — reads the committed trajectory and the verdict on it, makes setpoints (for the
@@ -13,17 +14,16 @@
 ///
 /// It alone owns the committed trajectory: planning proposes, guidance splices the proposal to what
 /// is being flown and gives it its number. It obeys the verdict: what is not clear is flown up to
-/// the braking distance before `clear_until`, and silence is a stop. A stop slows down along the
-/// trajectory, so that it stays where it was checked: the trajectory's own time runs slower at a
-/// constant rate until it stands. Reads no clock; cost: microseconds, but for a splice or a stop.
+/// the braking distance before `clear_until`, and silence is a stop. A stop brakes along the
+/// trajectory, so that it stays where it was checked (motion/braking.h). Reads no clock; cost:
+/// microseconds, but for a splice or a stop.
 namespace saker::autonomy {
 
 struct GuidanceConfig {
   double setpoint_expiry_s = 0.3;
   double verdict_silence_s = 0.35;
-  double stop_acceleration_mps2 = 2.0;
   double stop_margin_s = 0.15;
-  double step_s = 0.05;
+  motion::BrakingConfig braking;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -31,11 +31,9 @@ struct GuidanceConfig {
             "after which a setpoint is no longer obeyed: fifteen missed ones");
     v.field("verdict_silence_s", verdict_silence_s, {0.15, 5}, "s",
             "without a verdict, or without one on a new trajectory, then stop: four of 10 Hz");
-    v.field("stop_acceleration_mps2", stop_acceleration_mps2, {0.1, 20}, "m/s²",
-            "along the trajectory");
     v.field("stop_margin_s", stop_margin_s, {0, 2}, "s",
             "at rest so long before the time to which the trajectory is clear");
-    v.field("step_s", step_s, {0.01, 0.5}, "s", "between the states of a stop");
+    v.group("braking", braking, "how it comes to rest");
   }
 };
 
@@ -111,9 +109,5 @@ class Guidance {
 /// `first` up to the start of `second`, then `second`, on the second's steps.
 [[nodiscard]] motion::Trajectory spliced(const motion::Trajectory& first,
                                          const motion::Trajectory& second, Time now);
-
-/// The trajectory from `now` on, slowed down at `deceleration` along itself until it stands.
-[[nodiscard]] motion::Trajectory slowed_down(const motion::Trajectory& trajectory, Time now,
-                                             double deceleration, double step_s);
 
 }  // namespace saker::autonomy

@@ -40,7 +40,8 @@ struct RegisteredScan {
   Time stamp = 0;
   SE3 T_odom_lidar = SE3::Identity();
   std::shared_ptr<const std::vector<Eigen::Vector3f>> points;        ///< lidar frame at `stamp`
-  std::shared_ptr<const std::vector<float>> reflectivity = nullptr;  ///< one a point, 0 … 1
+  std::shared_ptr<const std::vector<float>> reflectivity = nullptr;  ///< 0 … 1, one a point; null:
+                                                                     ///< unknown
 };
 
 /// The collision checker, which alone writes occupancy.

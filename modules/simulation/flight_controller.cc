@@ -26,6 +26,7 @@ FlightController::FlightController(const FlightControllerConfig& config,
       estimator_(config.estimator) {}
 
 void FlightController::receive(const VehicleOdometry& odometry) {
+  if (lied_to_) return;
   const std::optional<SE3> T_after_before = estimator_.receive(odometry);
   if (!T_after_before) return;
   reference_.position = *T_after_before * reference_.position;
@@ -81,16 +82,17 @@ void FlightController::enter(VehicleMode mode) {
   if (mode != VehicleMode::descend) return;
   descend_height_ = estimator_.inertial().height();
   descend_yaw_ = core::yaw(estimator_.inertial().attitude());
-  // What lied may have left a velocity that is wrong by the gate, but not by more.
-  const bool lied = (estimator_.faults() & kOdometryRejected) != 0;
-  const double most_wrong = config_.estimator.odometry.velocity_gate_mps;
-  coasts_ = !lied || estimator_.odometry().velocity().norm() > most_wrong;
-  if (!coasts_) controller_.forget();
+  coasts_ = true;
+  lied_to_ = (estimator_.faults() & kOdometryRejected) != 0;
+  if (!lied_to_) return;
+  estimator_.take_back();
+  controller_.forget();
 }
 
 void FlightController::disarm() {
   armed_ = false;
   setpoint_expired_ = false;
+  lied_to_ = false;
   setpoint_.reset();
   controller_.forget();
   enter(VehicleMode::idle);
@@ -159,7 +161,8 @@ MotorThrusts FlightController::follow(double dt) {
   advance_reference(dt);
   const OdometryEstimator& at = estimator_.odometry();
   const Eigen::Vector3d wanted = controller_.track(reference_, at.position(), at.velocity(), dt);
-  return controller_.thrusts(wanted, reference_.yaw, reference_.yaw_rate, at.attitude(),
+  return controller_.thrusts(wanted, reference_.yaw,
+                             controller_.turn(wanted, reference_.yaw_rate, dt), at.attitude(),
                              at.angular_velocity());
 }
 
@@ -187,8 +190,11 @@ void FlightController::advance_reference(double dt) {
 
 /// To a standstill where braking ends.
 void FlightController::brake(double dt) {
-  reference_.velocity = shortened_by(reference_.velocity, dt * config_.brake_mps2);
+  const Eigen::Vector3d before = reference_.velocity;
+  reference_.velocity = shortened_by(before, dt * config_.brake_mps2);
   reference_.position += dt * reference_.velocity;
+  reference_.acceleration =
+      before.normalized() * (reference_.velocity.norm() > 0 ? -config_.brake_mps2 : 0.0);
 }
 
 FlightReference FlightController::at_now(const Setpoint& s) const {
@@ -218,11 +224,13 @@ MotorThrusts FlightController::descend(double dt) {
   Eigen::Vector3d wanted =
       controller_.track(down, {0, 0, level.height()}, {0, 0, level.climb_rate()}, dt);
   if (!coasts_) {
-    return controller_.thrusts(wanted, descend_yaw_, 0, level.attitude(), level.angular_velocity());
+    return controller_.thrusts(wanted, descend_yaw_, controller_.turn(wanted, 0, dt),
+                               level.attitude(), level.angular_velocity());
   }
   const Eigen::Vector3d still = Eigen::Vector3d::Zero();
   wanted.head<2>() = controller_.follow_velocity(still, last.velocity()).head<2>();
-  return controller_.thrusts(wanted, reference_.yaw, 0, last.attitude(), last.angular_velocity());
+  return controller_.thrusts(wanted, reference_.yaw, controller_.turn(wanted, 0, dt),
+                             last.attitude(), last.angular_velocity());
 }
 
 }  // namespace saker::simulation

@@ -16,7 +16,7 @@ struct FlightControllerConfig {
   double land_speed_mps = 0.6;
   double descend_speed_mps = 0.6;
   double brake_mps2 = 1.5;
-  double coast_s = 1.5;
+  double coast_s = 6;
   double hold_s = 8;
   double idle_s = 60;
   double touchdown_s = 0.4;
@@ -36,8 +36,9 @@ struct FlightControllerConfig {
     v.field("descend_speed_mps", descend_speed_mps, {0.1, 3}, "m/s",
             "on inertial unit and barometer: slow enough for a touchdown unseen");
     v.field("brake_mps2", brake_mps2, {0.1, 10}, "m/s²", "from setpoints that stopped to hold");
-    v.field("coast_s", coast_s, {0, 10}, "s",
-            "of braking on the inertial unit when odometry stops; then it levels");
+    v.field("coast_s", coast_s, {0, 20}, "s",
+            "of standing still by the inertial unit when odometry stops: 0.3 m/s off by then, less "
+            "than wind does to one that levels; then it levels");
     v.field("hold_s", hold_s, {0.5, 600}, "s", "of hold without a setpoint before it lands");
     v.field("idle_s", idle_s, {1, 3600}, "s", "armed on the ground before it disarms");
     v.field("touchdown_s", touchdown_s, {0.05, 5}, "s", "standing still before it disarms");
@@ -128,6 +129,7 @@ class FlightController {
   double descend_height_ = NAN;  // m, barometer: the reference of mode descend
   double descend_yaw_ = 0;
   bool coasts_ = false;
+  bool lied_to_ = false;  // by odometry, in this flight
   double standing_s_ = 0;
   double thrust_ = 0;  // N, commanded last
 

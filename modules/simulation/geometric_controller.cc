@@ -59,14 +59,20 @@ Eigen::Vector3d GeometricController::follow_velocity(const Eigen::Vector3d& want
                  kStandardGravity * Eigen::Vector3d::UnitZ());
 }
 
+Eigen::Vector3d GeometricController::turn(const Eigen::Vector3d& wanted, double yaw_rate,
+                                          double dt) {
+  const Eigen::Vector3d up = wanted.normalized();
+  late_up_ += std::min(1.0, dt / config_.turn_time_s) * (up - late_up_);
+  return late_up_.cross(up) / config_.turn_time_s + yaw_rate * Eigen::Vector3d::UnitZ();
+}
+
 MotorThrusts GeometricController::thrusts(const Eigen::Vector3d& wanted, double yaw,
-                                          double yaw_rate, const Eigen::Matrix3d& R,
+                                          const Eigen::Vector3d& turn, const Eigen::Matrix3d& R,
                                           const Eigen::Vector3d& angular_velocity) const {
   const Eigen::Matrix3d R_wanted = wanted_attitude(wanted, yaw);
   const Eigen::Matrix3d R_error = R_wanted.transpose() * R;
   const Eigen::Vector3d attitude_error = 0.5 * vee(R_error - R_error.transpose());  // eq. 10
-  const Eigen::Vector3d wanted_rate = R.transpose() * Eigen::Vector3d(0, 0, yaw_rate);
-  const Eigen::Vector3d rate_error = angular_velocity - wanted_rate;  // eq. 11
+  const Eigen::Vector3d rate_error = angular_velocity - R.transpose() * turn;       // eq. 11
   const Eigen::Vector3d gains(config_.attitude_gain, config_.attitude_gain, config_.yaw_gain);
   const Eigen::Vector3d rate_gains(config_.rate_gain, config_.rate_gain, config_.yaw_rate_gain);
   const Eigen::Vector3d J = airframe_.inertia();

@@ -40,8 +40,8 @@ void OdometryEstimator::propagate(const lidar::ImuSample& sample, double dt) {
   advance(now_, sample, dt);
   now_.R = Eigen::Quaterniond(now_.R).normalized().toRotationMatrix();
   past_.push_back({sample, dt, now_});
-  while (sample.stamp - past_.front().sample.stamp > from_seconds(config_.most_latency_s))
-    past_.pop_front();
+  const Time kept = from_seconds(std::max(config_.most_latency_s, config_.take_back_s));
+  while (sample.stamp - past_.front().sample.stamp > kept) past_.pop_front();
 }
 
 /// The newest one that is not after `stamp`, else the first.
@@ -73,6 +73,12 @@ void OdometryEstimator::restart(const VehicleOdometry& odometry) {
   velocity_drift_.setZero();
   position_drift_.setZero();
   started_ = true;
+  past_.erase(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(entry));  // another odom
+}
+
+/// Every state is corrected by odometry up to its own time only: the oldest one knows none of it.
+void OdometryEstimator::take_back() {
+  if (!past_.empty()) replay_after(0);
 }
 
 /// Leaky sums of what the accelerometer did not see and of what its own velocity does not explain.

@@ -14,6 +14,7 @@ struct OdometryEstimatorConfig {
   double attitude_time_s = 0.3;
   double bias_time_s = 5;
   double most_latency_s = 0.5;
+  double take_back_s = 1.0;
   double position_gate_m = 0.8;
   double velocity_gate_mps = 1.0;
   double attitude_gate_deg = 12;
@@ -30,6 +31,9 @@ struct OdometryEstimatorConfig {
     v.field("bias_time_s", bias_time_s, {0.5, 1000}, "s", "the same of the inertial unit's errors");
     v.field("most_latency_s", most_latency_s, {0.05, 2}, "s",
             "odometry older than this is of no use: so much is kept to propagate again");
+    v.field(
+        "take_back_s", take_back_s, {0.05, 5}, "s",
+        "of corrections that are undone when odometry turns out to lie: it was believed so long");
     v.field("position_gate_m", position_gate_m, {0.05, 10}, "m",
             "distance from what was propagated at which odometry is not believed");
     v.field("velocity_gate_mps", velocity_gate_mps, {0.05, 10}, "m/s", "the same of the velocity");
@@ -62,6 +66,8 @@ class OdometryEstimator {
   /// Starts anew at this odometry: the first one, or after a jump of `odom`.
   void restart(const VehicleOdometry& odometry);
   [[nodiscard]] OdometryDoubt correct(const VehicleOdometry& odometry);
+  /// What odometry said over the last `take_back_s` is undone: the inertial unit alone since then.
+  void take_back();
 
   [[nodiscard]] bool started() const { return started_; }
   [[nodiscard]] const Eigen::Matrix3d& attitude() const { return now_.R; }

@@ -47,6 +47,9 @@ class VehicleEstimator {
   /// (reset_counter): T_after_before of the body in it.
   std::optional<SE3> receive(const VehicleOdometry& odometry);
 
+  /// For who has learnt that odometry lied: undoes what it said lately.
+  void take_back() { odometry_.take_back(); }
+
   [[nodiscard]] bool trusted() const { return faults() == 0; }
   [[nodiscard]] std::uint32_t faults() const;  ///< VehicleFault bits of odometry
   /// Why odometry is rejected or was doubted last; empty where it never was.

@@ -26,6 +26,10 @@ bool lands(const VehicleState& state) {
   return !state.armed || state.mode == VehicleMode::land || state.mode == VehicleMode::descend;
 }
 
+bool is_calm(const RecordedPlant::Row& row) {
+  return row.speed() < kAtRest_mps || lands(row.state);
+}
+
 /// Keeps what happened over several slices of one run.
 class Listener : public MissionObserver {
  public:
@@ -42,7 +46,7 @@ void RecordedPlant::step_to(Time time) {
   SimulatedPlant::step_to(time);
   const simulation::VehicleTruth truth = vehicle_.truth();
   const VehicleState last = rows.empty() ? VehicleState{} : rows.back().state;
-  rows.push_back({truth.stamp, truth.velocity.norm(), last});
+  rows.push_back({truth, last});
   if (watch) watch(truth);
 }
 
@@ -144,6 +148,12 @@ bool FaultyFlight::fly_into_event() {
                   [] {});
 }
 
+bool FaultyFlight::fly_into_moment(double flown_s, const std::function<void()>& fault) {
+  return fly_into(
+      [flown_s](const simulation::VehicleTruth& truth) { return truth.flight_time_s >= flown_s; },
+      fault);
+}
+
 void FaultyFlight::go_on(double seconds) {
   Listener listener(events_);
   result_ = mission_->run(seconds, listener);
@@ -151,10 +161,15 @@ void FaultyFlight::go_on(double seconds) {
 
 double FaultyFlight::settled_after() const {
   for (const RecordedPlant::Row& row : plant.rows) {
-    if (row.stamp <= fault_) continue;
-    if (row.speed < kAtRest_mps || lands(row.state)) return to_seconds(row.stamp - fault_);
+    if (row.truth.stamp > fault_ && is_calm(row)) return to_seconds(row.truth.stamp - fault_);
   }
   return INFINITY;
+}
+
+double FaultyFlight::settled_for_good_after() const {
+  const auto last = std::find_if_not(plant.rows.rbegin(), plant.rows.rend(), is_calm);
+  if (last == plant.rows.rbegin()) return INFINITY;
+  return last == plant.rows.rend() ? 0 : to_seconds(last->truth.stamp - fault_);
 }
 
 double FaultyFlight::said_after(Cause cause) const {
@@ -178,7 +193,7 @@ bool FaultyFlight::flies_fast_again(double most_s) {
 std::uint32_t FaultyFlight::faults() const {
   std::uint32_t faults = 0;
   for (const RecordedPlant::Row& row : plant.rows) {
-    if (row.stamp > fault_) faults |= row.state.faults;
+    if (row.truth.stamp > fault_) faults |= row.state.faults;
   }
   return faults;
 }

@@ -20,9 +20,9 @@ class RecordedPlant : public tools::SimulatedPlant {
     gone    ///< nothing comes from it either: the plant has died
   };
   struct Row {
-    Time stamp = 0;
-    double speed = 0;  // m/s
+    simulation::VehicleTruth truth;
     VehicleState state;
+    [[nodiscard]] double speed() const { return truth.velocity.norm(); }
   };
 
   explicit RecordedPlant(simulation::SimulatedVehicle& vehicle)
@@ -75,11 +75,15 @@ class FaultyFlight {
                      const std::function<void()>& over);
   /// The fault is the scenario's event; false when it never begins.
   bool fly_into_event();
+  /// The fault comes so long after it left the ground.
+  bool fly_into_moment(double flown_s, const std::function<void()>& fault);
   /// Goes on for so long after the fault, or until the mission is done.
   void go_on(double seconds);
 
   /// Seconds from the fault until the vehicle was at rest or landing.
   [[nodiscard]] double settled_after() const;
+  /// The same, and not moving any more until the end.
+  [[nodiscard]] double settled_for_good_after() const;
   /// Seconds from the fault until the cause was said; NaN: never.
   [[nodiscard]] double said_after(Cause cause) const;
   /// Goes on until it flies fast again, for so long at most. \return whether it did

@@ -105,7 +105,7 @@ TEST_F(GuidanceTest, SplicesAProposalToWhatIsFlown) {
   (void)fly_to(kStart + 3 * kNanosecondsPerSecond, true);
   const Time begin = now + from_seconds(0.43);
   const motion::MotionState at = guidance.committed()->sample(begin);
-  motion::Trajectory next = slowed_down(*guidance.committed(), begin, 1.0, 0.05);
+  motion::Trajectory next = motion::braked(*guidance.committed(), begin, {});
   ASSERT_EQ(guidance.commit({next, guidance.committed()->id}, now), CommitStatus::committed);
   EXPECT_LE(guidance.committed()->start, now);
   EXPECT_NEAR((guidance.committed()->sample(begin).position - at.position).norm(), 0, 1e-3);
@@ -183,23 +183,21 @@ TEST_F(GuidanceTest, HoldsWhenToldTo) {
   EXPECT_EQ(guidance.last_stop().reason, "told to hold");
 }
 
-TEST(SlowedDown, StaysOnTheTrajectoryWithinTheDeceleration) {
-  motion::Trajectory circle;
-  circle.start = 0;
-  circle.step_s = 0.05;
-  for (int i = 0; i < 400; ++i) {
-    const double a = 0.05 * i * 0.5;  // 2 m/s on 4 m
-    circle.states.push_back({Eigen::Vector3d(4 * std::cos(a), 4 * std::sin(a), 2),
-                             Eigen::Vector3d(-2 * std::sin(a), 2 * std::cos(a), 0),
-                             Eigen::Vector3d(-std::cos(a), -std::sin(a), 0), a, 0.5});
+/// The acceleration grows by the jerk at most, from the last verdict to rest.
+TEST_F(GuidanceTest, AStopHasNoJumpInAcceleration) {
+  ASSERT_EQ(propose(), CommitStatus::committed);
+  (void)fly_to(kStart + 3 * kNanosecondsPerSecond, true);
+  const double most = motion::BrakingConfig{}.jerk_mps3 * to_seconds(kStep) * 1.01;
+  Setpoint before = last;
+  double hardest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Setpoint next = fly_to(now, false);
+    EXPECT_LE((next.acceleration - before.acceleration).norm(), most);
+    hardest = std::max(hardest, next.acceleration.norm());
+    before = next;
   }
-  const motion::Trajectory stop = slowed_down(circle, from_seconds(5), 2, 0.05);
-  EXPECT_NEAR(stop.duration_s(), 1, 0.11);
-  for (const motion::MotionState& state : stop.states) {
-    EXPECT_NEAR(state.position.head<2>().norm(), 4, 1e-3);
-    EXPECT_LT(state.acceleration.norm(), std::hypot(2.0, 1.0) + 0.01);
-  }
-  EXPECT_EQ(stop.states.back().velocity.norm(), 0);
+  EXPECT_TRUE(at_rest());
+  EXPECT_NEAR(hardest, motion::BrakingConfig{}.deceleration_mps2, 0.05);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ class SmallMission {
     MissionObserver nobody;
     return mission_->run(seconds, nobody);
   }
+  [[nodiscard]] simulation::VehicleTruth truth() const { return vehicle_.truth(); }
 
   static simulation::MissionConfig scenario(std::vector<simulation::ScenarioEvent> events) {
     simulation::MissionConfig config;
@@ -77,7 +78,7 @@ TEST(MissionLockstep, ComesDownWithItsCauseWhenTheLidarStops) {
   EXPECT_EQ(result.phase, MissionPhase::done);
   EXPECT_TRUE(said(result, Cause::lidar_silent) || said(result, Cause::odometry_stale));
   EXPECT_FALSE(result.succeeded);
-  // What it comes down on it cannot choose: fault_test.cc says that it first stops.
+  EXPECT_EQ(mission.truth().collisions, 0);
 }
 
 TEST(MissionLockstep, RefusesALatencyThatNoProposalSurvives) {

@@ -16,7 +16,10 @@ autonomy::RegisteredScan made_scan(int points) {
                         static_cast<float>(rng.uniform(-120, 120)),
                         static_cast<float>(rng.uniform(-5, 30)));
   }
-  autonomy::RegisteredScan scan{.stamp = 5'000'000'000, .points = cloud};
+  auto reflectivity = std::make_shared<std::vector<float>>();
+  for (int i = 0; i < points; ++i) reflectivity->push_back(static_cast<float>(i % 256) / 255);
+  autonomy::RegisteredScan scan{
+      .stamp = 5'000'000'000, .points = cloud, .reflectivity = reflectivity};
   scan.T_odom_lidar.translation() << 1, 2, 3;
   return scan;
 }
@@ -43,11 +46,12 @@ TEST(ScanMessages, AScanComesBackToTheCentimetre) {
     worst = std::max(worst, ((*back->points)[i] - (*scan.points)[i]).cwiseAbs().maxCoeff());
   }
   EXPECT_LE(worst, 0.00502f);  // half a centimetre and the rounding of floats
+  EXPECT_EQ(*back->reflectivity, *scan.reflectivity);
 }
 
 TEST(ScanMessages, ChunksFitIntoSixtyKilobytes) {
   const auto chunks = to_lcm(made_scan(65536), 0);
-  EXPECT_EQ(chunks.size(), 7u);
+  EXPECT_EQ(chunks.size(), 8u);
   for (const scan_t& chunk : chunks) EXPECT_LE(chunk.getEncodedSize(), 60 * 1024);
 }
 
@@ -67,6 +71,17 @@ TEST(ScanMessages, PointsThatAreNoneOrTooFarAreLeftOut) {
   ASSERT_EQ(back->points->size(), 2u);
   EXPECT_EQ((*back->points)[0], Eigen::Vector3f(1, 2, 3));
   EXPECT_EQ((*back->points)[1], Eigen::Vector3f(327, -327, 0));
+}
+
+TEST(ScanMessages, ReflectivityThatIsNoneIsZeroAndTooMuchIsAll) {
+  autonomy::RegisteredScan scan = made_scan(4);
+  scan.reflectivity = std::make_shared<std::vector<float>>(std::vector<float>{NAN, -1, 2, 0.5f});
+  ScanJoiner joiner;
+  const auto back = joined(joiner, to_lcm(scan, 0));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(*back->reflectivity, (std::vector<float>{0, 0, 1, 128.0f / 255}));
+  scan.reflectivity = nullptr;
+  EXPECT_EQ(to_lcm(scan, 0).front().reflectivity, (std::vector<std::uint8_t>(4, 0)));
 }
 
 TEST(ScanMessages, NoScanIsLargerThanItsCeiling) {
@@ -97,12 +112,13 @@ TEST(ScanJoiner, ALostChunkCostsOneScan) {
 }
 
 TEST(ScanJoiner, AChunkWhoseSizesDisagreeIsRefused) {
-  for (const int change : {0, 1, 2, 3}) {
+  for (const int change : {0, 1, 2, 3, 4}) {
     scan_t chunk = to_lcm(made_scan(100), 0).front();
     if (change == 0) chunk.num_points = -1;
     if (change == 1) chunk.num_points = 101;
     if (change == 2) chunk.z_cm.pop_back();
     if (change == 3) chunk.orientation[0] = 5;
+    if (change == 4) chunk.reflectivity.pop_back();
     ScanJoiner joiner;
     EXPECT_FALSE(joiner.add(chunk));
     EXPECT_FALSE(joiner.accepted());

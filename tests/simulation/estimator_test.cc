@@ -63,6 +63,24 @@ TEST(OdometryEstimator, LatencyCostsNothing) {
   EXPECT_NEAR(estimator.velocity().x(), v(1999), 0.01);
 }
 
+/// Flies at 2 m/s; odometry freezes 0.6 s before the end, and is believed for a while.
+TEST(OdometryEstimator, WhatALieDidIsUndoneByTakingItBack) {
+  OdometryEstimator estimator({});
+  constexpr int kEnd = 2000, kFrozen = kEnd - 300;
+  for (int i = 0; i < kEnd; ++i) {
+    estimator.propagate(reading(i, {0, 0, kStandardGravity}, {0, 0, 0}), kStep);
+    if (i % 5 != 0) continue;
+    const double said = 2 * std::min(i, kFrozen) * kStep;
+    const VehicleOdometry odometry = odometry_at(i, {said, 0, 0}, {i < kFrozen ? 2.0 : 1.2, 0, 0});
+    if (!estimator.started()) estimator.restart(odometry);
+    (void)estimator.correct(odometry);
+  }
+  EXPECT_LT(estimator.velocity().x(), 1.8);
+  estimator.take_back();
+  EXPECT_NEAR(estimator.velocity().x(), 2, 0.01);
+  EXPECT_NEAR(estimator.position().x(), 2 * (kEnd - 1) * kStep, 0.02);
+}
+
 TEST(OdometryEstimator, AVelocityThatTheAccelerometerDidNotSeeIsDoubted) {
   OdometryEstimator estimator({});
   OdometryDoubt doubt = nullptr;

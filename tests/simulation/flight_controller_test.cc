@@ -41,6 +41,25 @@ TEST(FlightController, AStepIsReachedWithLittleOvershoot) {
   EXPECT_NEAR((vehicle.position() - Eigen::Vector3d(1, 0, 3)).norm(), 0, 0.08);
 }
 
+/// Speeds up at 2 m/s², then brakes as hard at once, to a standstill.
+TEST(FlightController, AStopEndsWithoutASwing) {
+  MadeVehicle vehicle(calm());
+  ASSERT_TRUE(vehicle.fly(3));
+  vehicle.guide({0, 0, 3}, 2);
+  const double step_s = 0.02, speeding_up_s = 0.8, settled_s = 1.8;
+  double x = 0, v = 0, fastest = 0;
+  for (double t = 0; t < 6; t += step_s) {
+    const double a = t < speeding_up_s ? 2 : v > 1e-9 ? -2 : 0;
+    vehicle.setpoint({x, 0, 3}, 0, 0.2, {v, 0, 0}, {a, 0, 0});
+    vehicle.run(step_s);
+    x += step_s * (v + step_s * a / 2);
+    v = std::max(0.0, v + step_s * a);
+    if (t > settled_s) fastest = std::max(fastest, vehicle.body.state().velocity.norm());
+  }
+  EXPECT_EQ(v, 0);
+  EXPECT_LT(fastest, 0.15);
+}
+
 TEST(FlightController, YawFollowsTheSetpoint) {
   MadeVehicle vehicle(calm());
   ASSERT_TRUE(vehicle.fly(2));
@@ -190,6 +209,8 @@ TEST(FlightController, FrozenOdometryInFlightIsRejected) {
     if (vehicle.state().mode == descend) descended_after = (i - 100) * 0.02;
   }
   EXPECT_LT(descended_after, 2.0);
+  vehicle.run(1.5);
+  EXPECT_LT(vehicle.body.state().velocity.head<2>().norm(), 0.3);  // what was a lie is taken back
 }
 
 TEST(FlightController, AnnouncedJumpsOfOdomMoveTheReferenceAlong) {

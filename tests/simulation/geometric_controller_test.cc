@@ -25,7 +25,8 @@ TEST(GeometricController, WithoutErrorItCarriesTheWeight) {
   GeometricController controller({}, {});
   const Eigen::Vector3d wanted = controller.track(at(kZero), kZero, kZero, 0.002);
   EXPECT_LT((wanted - kUp).norm(), 1e-9);
-  const MotorThrusts thrusts = controller.thrusts(wanted, 0, 0, Eigen::Matrix3d::Identity(), kZero);
+  const MotorThrusts thrusts =
+      controller.thrusts(wanted, 0, kZero, Eigen::Matrix3d::Identity(), kZero);
   const double weight = AirframeConfig().mass_kg * kStandardGravity;
   EXPECT_LT((wrench_of(thrusts) - Eigen::Vector4d(weight, 0, 0, 0)).norm(), 1e-9);
 }
@@ -36,7 +37,7 @@ TEST(GeometricController, TorqueTurnsTowardsTheWantedAttitude) {
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d off(rng.normal(0, 0.2), rng.normal(0, 0.2), rng.normal(0, 0.2));
     const Eigen::Matrix3d R = core::so3_exp(off);
-    const Eigen::Vector4d wrench = wrench_of(controller.thrusts(kUp, 0, 0, R, kZero));
+    const Eigen::Vector4d wrench = wrench_of(controller.thrusts(kUp, 0, kZero, R, kZero));
     EXPECT_LT(wrench.tail<3>().dot(off), 0);
   }
 }
@@ -45,8 +46,28 @@ TEST(GeometricController, TorqueBrakesATurn) {
   const GeometricController controller({}, {});
   const Eigen::Vector3d rate(0.5, -0.3, 0.2);
   const Eigen::Vector4d wrench =
-      wrench_of(controller.thrusts(kUp, 0, 0, Eigen::Matrix3d::Identity(), rate));
+      wrench_of(controller.thrusts(kUp, 0, kZero, Eigen::Matrix3d::Identity(), rate));
   EXPECT_LT(wrench.tail<3>().dot(rate), 0);
+}
+
+/// A wanted attitude that turns steadily about y.
+TEST(GeometricController, KnowsHowFastTheWantedAttitudeTurns) {
+  GeometricController controller({}, {});
+  const double rate = 0.8, dt = 0.002;
+  Eigen::Vector3d turn = kZero;
+  for (int i = 0; i < 250; ++i) {
+    turn = controller.turn(core::so3_exp({0, rate * i * dt, 0}) * kUp, 0.3, dt);
+  }
+  EXPECT_LT((turn - Eigen::Vector3d(0, rate, 0.3)).norm(), 0.02);
+}
+
+/// Already turning as the wanted attitude does, it asks for no torque.
+TEST(GeometricController, ATurnThatIsWantedIsNotBraked) {
+  const GeometricController controller({}, {});
+  const Eigen::Vector3d rate(0.5, -0.3, 0);
+  const Eigen::Vector4d wrench =
+      wrench_of(controller.thrusts(kUp, 0, rate, Eigen::Matrix3d::Identity(), rate));
+  EXPECT_LT(wrench.head<3>().tail<2>().norm(), 1e-9);
 }
 
 TEST(GeometricController, TheTiltThatIsAskedForIsLimited) {
@@ -76,7 +97,7 @@ TEST(GeometricController, EveryDemandIsWithinTheMotorsLimits) {
   for (int i = 0; i < 500; ++i) {
     const Eigen::Vector3d wanted = controller.track(at(any(5)), any(5), any(5), 0.002);
     const MotorThrusts thrusts =
-        controller.thrusts(wanted, rng.uniform(-3, 3), 0, core::so3_exp(any(0.8)), any(3));
+        controller.thrusts(wanted, rng.uniform(-3, 3), any(3), core::so3_exp(any(0.8)), any(3));
     EXPECT_GE(thrusts.minCoeff(), -1e-9);
     EXPECT_LE(thrusts.maxCoeff(), AirframeConfig().most_thrust_n + 1e-9);
   }
@@ -86,8 +107,8 @@ TEST(GeometricController, EveryDemandIsWithinTheMotorsLimits) {
 TEST(GeometricController, YawGivesWayToRollAndPitch) {
   const GeometricController controller({}, {});
   const Eigen::Matrix3d R = core::so3_exp({0.1, 0, 0});
-  const Eigen::Vector4d calm = wrench_of(controller.thrusts(kUp, 0, 0, R, kZero));
-  const Eigen::Vector4d turning = wrench_of(controller.thrusts(kUp, 0, 40, R, kZero));
+  const Eigen::Vector4d calm = wrench_of(controller.thrusts(kUp, 0, kZero, R, kZero));
+  const Eigen::Vector4d turning = wrench_of(controller.thrusts(kUp, 0, {0, 0, 40}, R, kZero));
   EXPECT_NEAR(turning[1], calm[1], 0.05 * std::abs(calm[1]));
   EXPECT_GT(turning[3], calm[3]);
 }

@@ -49,9 +49,10 @@ class MadeVehicle {
   }
 
   void setpoint(const Eigen::Vector3d& position, double yaw = 0, double valid_s = 0.2,
-                const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero()) {
-    controller.receive(Setpoint{now, now + from_seconds(valid_s), position, velocity,
-                                Eigen::Vector3d::Zero(), yaw, 0});
+                const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero(),
+                const Eigen::Vector3d& acceleration = Eigen::Vector3d::Zero()) {
+    controller.receive(
+        Setpoint{now, now + from_seconds(valid_s), position, velocity, acceleration, yaw, 0});
   }
   /// Setpoints at 50 Hz for `seconds`.
   void guide(const Eigen::Vector3d& position, double seconds, double yaw = 0) {

@@ -182,7 +182,8 @@ void add_replay(Commands& commands) {
                    [options](const CommonOptions& common) { return replay(*options, common); });
   app.add_option("INPUT", options->input,
                  "a folder of KITTI scans (*.bin, or with velodyne/ in it), an Ouster capture "
-                 "(*.pcap) or a log of lcm-logger on the bulk network (scans, deskewed, without "
+                 "(*.pcap) or a log of lcm-logger on the bulk network (scans with reflectivity, "
+                 "deskewed, without "
                  "their poses)")
       ->required();
   app.add_option("--format", options->format, "kitti, ouster or lcm; found out when not given")
