@@ -186,7 +186,8 @@ template <class Config>
 /// Defaults, then `file` (none when empty), then the settings in their order.
 template <class Config>
 [[nodiscard]] Config load_config(const std::filesystem::path& file,
-                                 const std::vector<std::string>& settings, Config config = {}) {
+                                 const std::vector<std::string>& settings) {
+  Config config;
   if (!file.empty()) config = config_from_yaml(read_file(file), file.string(), std::move(config));
   for (const std::string& setting : settings) {
     config = config_with_setting(setting, std::move(config));

@@ -108,7 +108,7 @@ TEST_P(FaultAtMoments, AtRestOrLandingWithinTwoSecondsAndStaysSo) {
     FaultyFlight flight(events_of(fault, moment.flown_s));
     const bool begun = flight.fly_into_moment(moment.flown_s, [&] {
       flight.plant.link = fault.link;
-      flight.checker.dead = fault.checker_dies;
+      if (fault.checker_dies) flight.checker.die();
     });
     ASSERT_TRUE(begun);
     flight.go_on(kWatched_s);

@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Passing{Cause::occupancy_stale, 4}, Passing{Cause::mapping_stale, 7},
                     Passing{Cause::planning_stale, 6}, Passing{Cause::outside_geofence, 1},
                     Passing{Cause::off_course, 1}),
-    [](const auto& info) { return std::string(to_string(info.param.cause)); });
+    [](const auto& passing) { return std::string(to_string(passing.param.cause)); });
 
 }  // namespace
 }  // namespace saker::autonomy

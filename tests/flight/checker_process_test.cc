@@ -63,7 +63,8 @@ class CheckerOnTheBus : public testing::Test {
   }
 
   Bus bus_ = Bus::in_memory("R1");
-  CheckerProcess checker_{ProcessConfig{}, bus_};
+  const ProcessConfig config_;
+  CheckerProcess checker_{config_, bus_};
   CheckerProcess::Steady::time_point now_ = CheckerProcess::Steady::now();
   core::Rng rng_{1};
   Time stamp_ = kSensorStart;

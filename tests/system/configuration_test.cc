@@ -11,32 +11,33 @@
 namespace saker::tools {
 namespace {
 
+const flight::ProcessConfig kDefaults;
+
 TEST(Configuration, TheFileInTheRepositoryIsTheOneOfTheProgram) {
   const std::filesystem::path written = std::filesystem::path(testing::TempDir()) / "default.yaml";
-  core::write_file(written, configuration_text(flight::ProcessConfig{}));
+  core::write_file(written, configuration_text(kDefaults));
   EXPECT_TRUE(core::read_file(written) == core::read_file(SAKER_SOURCE_DIR "/configs/default.yaml"))
       << "compare configs/default.yaml with " << written;
 }
 
 TEST(Configuration, TheDefaultsAreWithinTheirBounds) {
-  EXPECT_NO_THROW((void)core::checked(flight::ProcessConfig{}, "saker"));
+  EXPECT_NO_THROW((void)core::checked(kDefaults, "saker"));
 }
 
 TEST(Configuration, WhatIsWrittenIsReadBackTheSame) {
-  const std::string text = configuration_text(flight::ProcessConfig{});
-  EXPECT_EQ(configuration_text(core::config_from_yaml<flight::ProcessConfig>(text, "default.yaml")),
-            text);
+  const std::string text = configuration_text(kDefaults);
+  EXPECT_EQ(configuration_text(core::config_from_yaml(text, "default.yaml", kDefaults)), text);
 }
 
 TEST(Configuration, NoKeyIsListedTwice) {
-  auto keys = core::config_keys(flight::ProcessConfig{});
+  auto keys = core::config_keys(kDefaults);
   std::sort(keys.begin(), keys.end());
   EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
   EXPECT_GT(keys.size(), 50u);
 }
 
 TEST(Configuration, TheNetworksOfTheProcessesAreInIt) {
-  const auto keys = core::config_keys(flight::ProcessConfig{});
+  const auto keys = core::config_keys(kDefaults);
   EXPECT_NE(std::find(keys.begin(), keys.end(), "bus.control_url"), keys.end());
 }
 
