@@ -174,7 +174,7 @@ void write_trajectory_picture(const std::filesystem::path& file,
     const auto& [drawn, shift] = layout.panels[i];
     draw_panel(picture, drawn, shift, colour_of(layout.columns[i]));
   }
-  picture.title("paths flown, each in its colour, in the same world side by side");
+  picture.title("paths flown, policies side by side");
   picture.legend({{core::Mark::rectangle, colours::kInk, "target"},
                   {core::Mark::rectangle, colours::kGrey, "other vehicle"}});
   picture.save(file);
