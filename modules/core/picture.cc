@@ -92,7 +92,7 @@ Extent Extent::grown(double margin_m) const {
   return {low.array() - margin_m, high.array() + margin_m};
 }
 
-Picture::Picture(const Extent& extent, int longest_px) : extent_(extent) {
+Picture::Picture(const Extent& extent, int longest_px, ScaleBar scale_bar) : extent_(extent) {
   if (extent_.empty()) extent_ = {Eigen::Vector2d::Constant(-10), Eigen::Vector2d::Constant(10)};
   const Eigen::Vector2d size = (extent_.high - extent_.low).cwiseMax(1.0);
   px_per_m_ = longest_px / size.maxCoeff();
@@ -102,7 +102,7 @@ Picture::Picture(const Extent& extent, int longest_px) : extent_(extent) {
   const int height = drawn_height_px_ + kTitlePx + kLegendPx + 2 * kMarginPx;
   image_ = std::make_unique<cv::Mat>(height, width, CV_8UC3, cv::Scalar(255, 255, 255));
   strips_ = std::make_unique<cv::Mat>();
-  draw_scale_bar();
+  if (scale_bar == ScaleBar::shown) draw_scale_bar();
 }
 
 Picture::~Picture() = default;

@@ -45,6 +45,8 @@ struct Extent {
   [[nodiscard]] Extent grown(double margin_m) const;
 };
 
+enum class ScaleBar { shown, hidden };
+
 enum class Mark { dot, line, rectangle, ring };
 
 struct LegendEntry {
@@ -66,7 +68,8 @@ struct Raster {
 class Picture {
  public:
   /// \param longest_px  of the drawn extent's sides; an empty extent shows 10 m around the origin.
-  explicit Picture(const Extent& extent, int longest_px = 1400);
+  explicit Picture(const Extent& extent, int longest_px = 1400,
+                   ScaleBar scale_bar = ScaleBar::shown);
   ~Picture();
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;

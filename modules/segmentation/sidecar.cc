@@ -3,8 +3,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.h"
+#include "core/sha256.h"
 #include "segmentation/features.h"
-#include "segmentation/sha256.h"
 
 namespace saker::segmentation {
 namespace {
@@ -54,7 +54,7 @@ void check_sidecar(const Sidecar& sidecar, const std::filesystem::path& file,
   for (const objects::ObjectClass& c : table.classes) names.push_back(c.name);
   expect_same(sidecar.classes, names, "classes", file);
   expect_same(sidecar.channels, {kChannels.begin(), kChannels.end()}, "channels", file);
-  const std::string found = sha256(weights);
+  const std::string found = core::sha256(weights);
   if (found == sidecar.sha256) return;
   throw Error(file.string() + ": sha256 " + sidecar.sha256 + ", but the weights beside it have " +
               found);

@@ -26,15 +26,18 @@ struct Sample {
   Eigen::VectorXd error;
 };
 
-/// The sample of a measurement of a true object; both models in one frame with z up.
-/// A cuboid that is measured the wrong way round is turned to the nearer of its two headings first.
+/// The sample of a measurement of a true object; both models of one shape, in one frame with z up.
+/// Each edge of a cuboid is compared with the true edge to which it is the more parallel, whichever
+/// way round it was measured. Recording, object, kind, time and reflectivity are the caller's.
 [[nodiscard]] Sample sample_of(const objects::Measurement& measurement,
                                const objects::Model& measured, const objects::Model& truth,
                                const Eigen::Vector3d& eye);
 
-/// CSV with a header line; one line a sample. Errors name file, line and what was expected.
+/// CSV with a header line; one line a sample, angles in radians, unknown numbers as nan. Throws
+/// Error that names file, line and what was expected.
 [[nodiscard]] std::vector<Sample> read_samples(const std::filesystem::path& file,
                                                const objects::ClassTable& table);
+/// The same as text; throws Error on a name that a CSV cannot hold.
 [[nodiscard]] std::string samples_text(const std::vector<Sample>& samples,
                                        const objects::ClassTable& table);
 

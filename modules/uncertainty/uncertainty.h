@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "objects/class_table.h"
+#include "uncertainty/class_model.h"
 #include "uncertainty/view.h"
 
 /// What a measurement of an object is worth, by where it is seen from — reads a model file that
@@ -13,7 +16,8 @@
 /// covariance of its model, for SLAM (noise of what was measured) and for active mapping (what a
 /// viewpoint will tell).
 ///
-/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: about a microsecond a prediction.
+/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: about ten microseconds a
+/// prediction.
 namespace saker::uncertainty {
 
 /// What to expect of a measurement of one object from one view.
@@ -26,15 +30,28 @@ struct Prediction {
                                ///< from one cell shares its error: together it counts once
 };
 
+/// Where a model comes from.
+struct Provenance {
+  std::string data;        ///< what was flown: kinds, worlds, seeds
+  std::string sensor;      ///< and its mode
+  std::string commit;      ///< of the program that flew
+  std::uint64_t seed = 0;  ///< of the fit
+};
+
 /// The fitted models of all classes, for one sensor. A value.
 class Model {
  public:
+  Model() = default;  ///< knows no class
+  explicit Model(const std::vector<ClassModel>& classes, Provenance provenance = {});
+
   /// Throws Error on a file that is missing, cut, of another version, or whose classes or numbers
   /// are not valid.
   [[nodiscard]] static Model load(const std::filesystem::path& file,
                                   const objects::ClassTable& table);
+  /// Throws Error where the file cannot be written.
+  void save(const std::filesystem::path& file, const objects::ClassTable& table) const;
 
-  [[nodiscard]] bool knows(objects::ClassId id) const;
+  [[nodiscard]] bool knows(objects::ClassId id) const { return classes_.contains(id); }
 
   /// Requires knows(id) and a finite range and angle; unknown elevation and reflectivity are
   /// averaged over.
@@ -44,6 +61,15 @@ class Model {
   /// Prediction::covariance: no number of cells takes it away. After views from cells C the error's
   /// covariance is (Σ_C covariance⁻¹)⁻¹ + common.
   [[nodiscard]] const Eigen::MatrixXd& common_covariance(objects::ClassId id) const;
+
+  /// What was fitted: its intervals, counts and trials. Requires knows(id).
+  [[nodiscard]] const ClassModel& of(objects::ClassId id) const { return classes_.at(id); }
+  [[nodiscard]] const std::map<objects::ClassId, ClassModel>& classes() const { return classes_; }
+  [[nodiscard]] const Provenance& provenance() const { return provenance_; }
+
+ private:
+  std::map<objects::ClassId, ClassModel> classes_;
+  Provenance provenance_;
 };
 
 }  // namespace saker::uncertainty

@@ -1,8 +1,8 @@
-#include "segmentation/sha256.h"
+#include "core/sha256.h"
 
 #include <gtest/gtest.h>
 
-namespace saker::segmentation {
+namespace saker::core {
 namespace {
 
 TEST(Sha256, GivesTheDigestsOfTheStandard) {
@@ -15,4 +15,4 @@ TEST(Sha256, GivesTheDigestsOfTheStandard) {
 }
 
 }  // namespace
-}  // namespace saker::segmentation
+}  // namespace saker::core

@@ -1,11 +1,11 @@
-#include "segmentation/sha256.h"
+#include "core/sha256.h"
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-namespace saker::segmentation {
+namespace saker::core {
 namespace {
 
 using State = std::array<std::uint32_t, 8>;
@@ -105,4 +105,4 @@ std::string sha256(std::string_view bytes) {
   return hex;
 }
 
-}  // namespace saker::segmentation
+}  // namespace saker::core

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "uncertainty/class_model.h"
+#include "uncertainty/random_effects.h"
+#include "uncertainty/sample.h"
+
+/// From measurements beside the truth to models: the paper, "Uncertainty modeling".
+///
+/// Confidence: a perceptron where it predicts held-out recordings better than a constant.
+/// Errors: what is measured of one object from one cell is averaged to one draw; bias, covariance
+/// and what an object's draws share are estimated together (random_effects.h). Elevation and
+/// reflectivity are taken in where they raise the likelihood of held-out recordings.
+namespace saker::uncertainty {
+
+struct FitConfig {
+  std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18};
+  int sectors = 6;
+  int least_objects = 10;
+  int least_draws = 5;
+  int folds = 5;
+  double standard_errors = 2;
+  RandomEffectsConfig errors;
+  PerceptronConfig confidence;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("range_edges_m", range_edges_m, {0, 1000}, "m", "of the intervals of range, ascending");
+    v.field("sectors", sectors, {2, 36}, "",
+            "of the viewing angle between front and back, for cuboids: 30 degrees each");
+    v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
+    v.field("least_draws", least_draws, {1, 100000}, "",
+            "of objects in an interval, below it counts as not flown");
+    v.field("folds", folds, {2, 100}, "", "of the recordings, to test on what was not fitted");
+    v.field("standard_errors", standard_errors, {0, 10}, "",
+            "by which an input must help on held-out recordings: chance in one of forty");
+    v.group("errors", errors, "biases and covariances");
+    v.group("confidence", confidence, "the multilayer perceptron");
+  }
+};
+
+/// One model a class that has samples, by ascending class. Throws Error where a class has too few
+/// objects or the range edges do not ascend.
+[[nodiscard]] std::vector<ClassModel> fit(std::span<const Sample> samples,
+                                          const objects::ClassTable& table, const FitConfig& config,
+                                          std::uint64_t seed);
+
+/// The parts of fit(), for samples of one class.
+[[nodiscard]] SemanticModel fit_semantic(std::span<const Sample> samples, const FitConfig& config,
+                                         std::uint64_t seed, std::vector<Trial>& trials);
+[[nodiscard]] GeometricModel fit_geometric(std::span<const Sample> samples,
+                                           const Intervals& intervals, const FitConfig& config,
+                                           std::vector<Trial>& trials);
+
+}  // namespace saker::uncertainty

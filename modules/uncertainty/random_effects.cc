@@ -1,0 +1,204 @@
+#include "uncertainty/random_effects.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace saker::uncertainty {
+namespace {
+
+// Of errors of at most four entries: nothing is allocated in the loops.
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+
+/// What is known of what an object adds to all its measurements.
+struct Addition {
+  Vector mean;
+  Matrix covariance;
+};
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Estimation {
+ public:
+  Estimation(std::span<const Draw> draws, int intervals, const Eigen::VectorXd& parity,
+             const RandomEffectsConfig& config)
+      : draws_(draws), parity_(parity), config_(config), weights_(draws.size(), 1.0) {
+    int objects = 0;
+    for (const Draw& draw : draws) objects = std::max(objects, draw.object + 1);
+    additions_.assign(at(objects), {zero_vector(), zero_matrix()});
+    counts_.assign(at(intervals), 0);
+    for (const Draw& draw : draws) ++counts_[at(draw.interval)];
+    start(at(intervals));
+  }
+
+  /// \return how much the common covariance changed, relative to itself
+  double iterate() {
+    const Matrix before = common_;
+    weigh();
+    estimate_additions();
+    estimate_biases();
+    estimate_covariances();
+    estimate_common();
+    return (common_ - before).norm() / before.norm();
+  }
+
+  [[nodiscard]] RandomEffects result() const {
+    RandomEffects result;
+    result.draws = counts_;
+    result.common = common_;
+    for (std::size_t i = 0; i < bias_.size(); ++i) {
+      result.bias.emplace_back(bias_[i]);
+      const double known = counts_[i] + config_.bias_prior_draws;
+      result.covariance.emplace_back(covariance_[i] * (known > 0 ? 1 + 1 / known : 1));
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] Vector zero_vector() const { return Vector::Zero(parity_.size()); }
+  [[nodiscard]] Matrix zero_matrix() const { return Matrix::Zero(parity_.size(), parity_.size()); }
+  [[nodiscard]] Matrix least() const {
+    return config_.least_sd_m * config_.least_sd_m *
+           Matrix::Identity(parity_.size(), parity_.size());
+  }
+
+  [[nodiscard]] Vector mirrored(const Vector& v) const { return v.cwiseProduct(parity_); }
+  [[nodiscard]] Matrix mirrored(const Matrix& m) const {
+    return parity_.asDiagonal() * m * parity_.asDiagonal();
+  }
+  /// From the object's own frame to "as if seen from the left", and back.
+  template <class T>
+  [[nodiscard]] T folded(const Draw& draw, const T& own) const {
+    return draw.mirrored ? mirrored(own) : own;
+  }
+
+  [[nodiscard]] Vector rest_of(const Draw& draw) const {
+    return Vector(draw.error) - bias_[at(draw.interval)];
+  }
+
+  /// All intervals alike, half of the variance common.
+  void start(std::size_t intervals) {
+    const double share = 1 / static_cast<double>(draws_.size());
+    Vector mean = zero_vector();
+    for (const Draw& draw : draws_) mean += share * draw.error;
+    Matrix covariance = least();
+    for (const Draw& draw : draws_) {
+      const Vector rest = draw.error - mean;
+      covariance += share * rest * rest.transpose();
+    }
+    bias_.assign(intervals, mean);
+    covariance_.assign(intervals, 0.5 * covariance);
+    common_ = 0.25 * (covariance + mirrored(covariance));
+  }
+
+  /// Bounds what an outlier moves.
+  void weigh() {
+    std::vector<Matrix> information;
+    for (const Matrix& covariance : covariance_) {
+      information.emplace_back((covariance + common_).inverse());
+    }
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const Vector rest = rest_of(draws_[i]);
+      const double squared = rest.dot(information[at(draws_[i].interval)] * rest);
+      weights_[i] = std::min(1.0, config_.most_sd * config_.most_sd / squared);
+    }
+  }
+
+  void estimate_additions() {
+    std::vector<std::array<Matrix, 2>> known;  // from the left, from the right
+    for (const Matrix& covariance : covariance_) {
+      const Matrix information = covariance.inverse();
+      known.push_back({information, mirrored(information)});
+    }
+    std::vector<Matrix> information(additions_.size(), common_.inverse());
+    std::vector<Vector> weighted(additions_.size(), zero_vector());
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const Draw& draw = draws_[i];
+      const Matrix own = weights_[i] * known[at(draw.interval)][draw.mirrored ? 1 : 0];
+      information[at(draw.object)] += own;
+      weighted[at(draw.object)] += own * folded(draw, rest_of(draw));
+    }
+    for (std::size_t i = 0; i < additions_.size(); ++i) {
+      additions_[i].covariance = information[i].inverse();
+      additions_[i].mean = additions_[i].covariance * weighted[i];
+    }
+  }
+
+  void estimate_biases() {
+    std::vector<Vector> sums(bias_.size(), zero_vector());
+    std::vector<double> counts(bias_.size(), 0);
+    Vector total = zero_vector();
+    double count = 0;
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const Draw& draw = draws_[i];
+      const Vector addition = folded(draw, additions_[at(draw.object)].mean);
+      const Vector weighted = weights_[i] * (Vector(draw.error) - addition);
+      sums[at(draw.interval)] += weighted;
+      counts[at(draw.interval)] += weights_[i];
+      total += weighted;
+      count += weights_[i];
+    }
+    const Vector mean = total / count;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const double known = counts[i] + config_.bias_prior_draws;
+      if (known > 0) bias_[i] = (sums[i] + config_.bias_prior_draws * mean) / known;
+    }
+  }
+
+  void estimate_covariances() {
+    std::vector<Matrix> sums(bias_.size(), zero_matrix());
+    Matrix total = zero_matrix();
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const Draw& draw = draws_[i];
+      const Addition& addition = additions_[at(draw.object)];
+      const Vector rest = rest_of(draw) - folded(draw, addition.mean);
+      const Matrix square =
+          weights_[i] * (rest * rest.transpose() + folded(draw, addition.covariance));
+      sums[at(draw.interval)] += square;
+      total += square;
+    }
+    const auto used = std::count_if(counts_.begin(), counts_.end(), [](int n) { return n > 0; });
+    const double freedom = static_cast<double>(draws_.size()) - static_cast<double>(used);
+    const Matrix mean = total / std::max(freedom, 1.0);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const double known = std::max(counts_[i] - 1, 0) + config_.prior_draws;
+      covariance_[i] = mean + least();
+      if (known > 0) covariance_[i] = (sums[i] + config_.prior_draws * mean) / known + least();
+    }
+  }
+
+  void estimate_common() {
+    Matrix sum = zero_matrix();
+    for (const Addition& addition : additions_) {
+      sum += addition.mean * addition.mean.transpose() + addition.covariance;
+    }
+    const Matrix common = sum / static_cast<double>(additions_.size()) + least();
+    common_ = 0.5 * (common + mirrored(common));  // a class is its own mirror image
+  }
+
+  std::span<const Draw> draws_;
+  Vector parity_;
+  RandomEffectsConfig config_;
+  std::vector<double> weights_;  // one a draw
+  std::vector<Addition> additions_;
+  std::vector<int> counts_;  // draws, one an interval
+  std::vector<Vector> bias_;
+  std::vector<Matrix> covariance_;
+  Matrix common_;
+};
+
+}  // namespace
+
+RandomEffects random_effects(std::span<const Draw> draws, int intervals,
+                             const Eigen::VectorXd& parity, const RandomEffectsConfig& config) {
+  Estimation estimation(draws, intervals, parity, config);
+  for (int i = 0; i < config.iterations; ++i) {
+    if (estimation.iterate() < config.tolerance) break;
+  }
+  return estimation.result();
+}
+
+}  // namespace saker::uncertainty

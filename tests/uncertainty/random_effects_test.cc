@@ -1,0 +1,77 @@
+#include "uncertainty/random_effects.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rng.h"
+
+namespace saker::uncertainty {
+namespace {
+
+const Eigen::Vector2d kParity(1, -1);
+
+/// Two intervals; errors of known bias and spread, an addition of the object in its own frame.
+std::vector<Draw> made(int objects, std::uint64_t seed) {
+  core::Rng rng(seed);
+  std::vector<Draw> draws;
+  for (int object = 0; object < objects; ++object) {
+    const Eigen::Vector2d addition(rng.normal(0, 0.3), rng.normal(0, 0.2));
+    for (int interval = 0; interval < 2; ++interval) {
+      for (const bool mirrored : {false, true}) {
+        const double sd = interval == 0 ? 0.1 : 0.4;
+        Eigen::Vector2d error(rng.normal(interval == 0 ? 0.5 : -0.2, sd), rng.normal(0.1, sd));
+        error += mirrored ? Eigen::Vector2d(addition.cwiseProduct(kParity)) : addition;
+        draws.push_back({object, interval, mirrored, error});
+      }
+    }
+  }
+  return draws;
+}
+
+TEST(RandomEffectsTest, TellsWhatIsCommonFromWhatIsNot) {
+  const RandomEffects effects = random_effects(made(2000, 1), 2, kParity, {});
+  EXPECT_NEAR(std::sqrt(effects.common(0, 0)), 0.3, 0.02);
+  EXPECT_NEAR(std::sqrt(effects.common(1, 1)), 0.2, 0.02);
+  EXPECT_NEAR(std::sqrt(effects.covariance[0](0, 0)), 0.1, 0.02);
+  EXPECT_NEAR(std::sqrt(effects.covariance[1](1, 1)), 0.4, 0.02);
+}
+
+TEST(RandomEffectsTest, RecoversTheBiasOfEachInterval) {
+  const RandomEffects effects = random_effects(made(2000, 2), 2, kParity, {});
+  EXPECT_NEAR(effects.bias[0][0], 0.5, 0.02);
+  EXPECT_NEAR(effects.bias[1][0], -0.2, 0.02);
+  EXPECT_NEAR(effects.bias[0][1], 0.1, 0.02);
+}
+
+TEST(RandomEffectsTest, WithoutACommonPartNoneIsFound) {
+  core::Rng rng(3);
+  std::vector<Draw> draws;
+  for (int i = 0; i < 4000; ++i) {
+    draws.push_back({i / 8, i % 2, false, Eigen::Vector2d(rng.normal(), rng.normal())});
+  }
+  const RandomEffects effects = random_effects(draws, 2, kParity, {});
+  EXPECT_LT(effects.common(0, 0), 0.02);
+  EXPECT_NEAR(effects.covariance[0](0, 0), 1, 0.1);
+}
+
+TEST(RandomEffectsTest, AnOutlierMovesABiasByABoundedAmount) {
+  std::vector<Draw> draws = made(200, 4);
+  const RandomEffects before = random_effects(draws, 2, kParity, {});
+  draws[0].error[0] += 1000;
+  const RandomEffects after = random_effects(draws, 2, kParity, {});
+  EXPECT_LT((after.bias[0] - before.bias[0]).norm(), 0.05);
+  EXPECT_LT(after.covariance[0](0, 0), 2 * before.covariance[0](0, 0));
+}
+
+TEST(RandomEffectsTest, AnIntervalWithFewDrawsIsDrawnTowardsTheClass) {
+  std::vector<Draw> draws = made(500, 5);
+  draws.push_back({0, 2, false, Eigen::Vector2d(0.3, 0.1)});
+  const RandomEffects effects = random_effects(draws, 3, kParity, {});
+  const double sd = std::sqrt(effects.covariance[2](0, 0));
+  EXPECT_GT(sd, 0.2);
+  EXPECT_LT(sd, 0.5);
+}
+
+}  // namespace
+}  // namespace saker::uncertainty
