@@ -15,7 +15,7 @@ namespace saker::uncertainty {
 
 struct MadeLaw {
   bool covariates = false;  ///< elevation moves the length's bias, reflectivity does nothing
-  double common_sd = 0.06;  ///< of length, in all measurements of one object
+  double common_sd = 0.06;  ///< of length, in all measurements of one object; 0.02 of the others
   double window_sd = 0.01;  ///< between windows of one cell
 
   /// As seen from the object's own frame.
@@ -32,7 +32,7 @@ struct MadeLaw {
     return covariance;
   }
   [[nodiscard]] Eigen::Matrix4d common() const {
-    Eigen::Vector4d variances = Eigen::Vector4d::Constant(1e-6);
+    Eigen::Vector4d variances = Eigen::Vector4d::Constant(0.02 * 0.02);
     variances[2] = common_sd * common_sd;
     return variances.asDiagonal();
   }
