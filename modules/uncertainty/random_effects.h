@@ -13,8 +13,8 @@ struct RandomEffectsConfig {
   double bias_prior_draws = 1;
   double most_sd = 5;
   double least_sd_m = 0.005;
-  int iterations = 200;
-  double tolerance = 1e-3;
+  int iterations = 1000;
+  double tolerance = 2e-4;
 
   template <class Visitor>
   void visit(Visitor& v) {

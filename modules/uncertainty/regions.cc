@@ -16,14 +16,14 @@ namespace {
 
 constexpr int kDraws = 512;
 
-/// Standard normal draws, each with its opposite.
+/// Normal draws of mean 0 and covariance 1 to the last digit.
 Eigen::MatrixXd normal_draws(Eigen::Index dimension) {
   core::Rng rng(1);
   Eigen::MatrixXd draws(dimension, kDraws);
-  for (int i = 0; i < kDraws; i += 2) {
-    for (Eigen::Index k = 0; k < dimension; ++k) draws(k, i) = rng.normal();
-    draws.col(i + 1) = -draws.col(i);
-  }
+  for (double& value : draws.reshaped()) value = rng.normal();
+  draws.colwise() -= Eigen::VectorXd(draws.rowwise().mean());
+  const Eigen::MatrixXd covariance = draws * draws.transpose() / kDraws;
+  covariance.llt().matrixL().solveInPlace(draws);
   return draws;
 }
 

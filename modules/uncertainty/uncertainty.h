@@ -16,7 +16,7 @@
 /// covariance of its model, for SLAM (noise of what was measured) and for active mapping (what a
 /// viewpoint will tell).
 ///
-/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: about ten microseconds a
+/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: below 30 microseconds a
 /// prediction.
 namespace saker::uncertainty {
 

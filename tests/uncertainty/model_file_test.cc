@@ -109,7 +109,7 @@ TEST(ModelFileTest, NumbersThatAreNotValidAreRefusedWithTheirKey) {
   const std::size_t at = text.find("common: [") + 9;
   const std::string first = text.substr(at, text.find(',', at) - at);
   expect_refusal(resealed("common: [" + first, "common: [-" + first), "positive definite");
-  expect_refusal(resealed("common: [" + first, "common: [.nan"), "finite");
+  expect_refusal(resealed("common: [" + first, "common: [.nan"), "expected a number");
   expect_refusal(resealed("common:", "komon:"), "komon");
 }
 

@@ -56,7 +56,7 @@ TEST(RandomEffectsTest, WithoutACommonPartNoneIsFound) {
 }
 
 TEST(RandomEffectsTest, AnOutlierMovesABiasByABoundedAmount) {
-  std::vector<Draw> draws = made(200, 4);
+  std::vector<Draw> draws = made(1000, 4);
   const RandomEffects before = random_effects(draws, 2, kParity, {});
   draws[0].error[0] += 1000;
   const RandomEffects after = random_effects(draws, 2, kParity, {});
