@@ -62,8 +62,9 @@ Eigen::Vector3d GeometricController::follow_velocity(const Eigen::Vector3d& want
 Eigen::Vector3d GeometricController::turn(const Eigen::Vector3d& wanted, double yaw_rate,
                                           double dt) {
   const Eigen::Vector3d up = wanted.normalized();
+  const Eigen::Vector3d tilting = late_up_.cross(up) / config_.turn_time_s;
   late_up_ += std::min(1.0, dt / config_.turn_time_s) * (up - late_up_);
-  return late_up_.cross(up) / config_.turn_time_s + yaw_rate * Eigen::Vector3d::UnitZ();
+  return tilting + yaw_rate * Eigen::Vector3d::UnitZ();
 }
 
 MotorThrusts GeometricController::thrusts(const Eigen::Vector3d& wanted, double yaw,

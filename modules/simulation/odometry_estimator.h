@@ -14,7 +14,7 @@ struct OdometryEstimatorConfig {
   double attitude_time_s = 0.3;
   double bias_time_s = 5;
   double most_latency_s = 0.5;
-  double take_back_s = 1.0;
+  double take_back_s = 2.0;
   double position_gate_m = 0.8;
   double velocity_gate_mps = 1.0;
   double attitude_gate_deg = 12;
