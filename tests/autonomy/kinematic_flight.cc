@@ -110,6 +110,7 @@ void KinematicFlight::supervise() {
   input.acks = std::exchange(acks_, {});
   input.planning = report_;
   input.has_targets = !planning_.policy().idle();
+  input.classified_share = 1;
   const Mission::Output output = supervisor_.step(std::move(input));
   orders_ = output.orders;
   if (output.anchor) guidance_.anchor(now_, odometry_);

@@ -59,21 +59,21 @@ TEST(ModelAlgebra, TurnedCuboidFillsTheSameSpace) {
   }
 }
 
-/// A car is 4.5 m by 1.8 m; across each other two share a square of 1.8 m.
 TEST(ModelAlgebra, OverlapOfFootprintsIsTheirSharedAreaOfTheSmallerOne) {
-  const auto beside = [](double x, double y, double yaw) {
-    Cuboid other = car(yaw);
-    other.pose.translation() += Eigen::Vector3d(x, y, 0);
-    return other;
+  const auto at = [](double x, double y, double yaw) {
+    Cuboid placed = car(0);
+    placed.pose = SE3(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+    placed.pose.translation() = {x, y, 0.7};
+    return placed;
   };
   const Eigen::Vector2d size = car(0).size.head<2>();
-  EXPECT_NEAR(footprint_overlap(car(0), beside(0, 0, 0)), 1, 1e-12);
-  EXPECT_NEAR(footprint_overlap(car(0), beside(size.x() / 4, size.y() / 2, 0)), 0.375, 1e-12);
-  EXPECT_NEAR(footprint_overlap(car(0), beside(0, 0, std::numbers::pi / 2)), size.y() / size.x(),
-              1e-12);
-  EXPECT_EQ(footprint_overlap(car(0), beside(0, size.y() + 0.01, 0)), 0);
-  const Cuboid askew = beside(1, 1, 0.6);
-  EXPECT_NEAR(footprint_overlap(car(0), askew), footprint_overlap(askew, car(0)), 1e-12);
+  EXPECT_NEAR(footprint_overlap(at(5, 2, 0), at(5, 2, 0)), 1, 1e-12);
+  EXPECT_NEAR(footprint_overlap(at(0, 0, 0), at(size.x() / 4, size.y() / 2, 0)), 0.375, 1e-12);
+  const double crossed = size.y() / size.x();  // they share a square
+  EXPECT_NEAR(footprint_overlap(at(5, 2, 0), at(5, 2, std::numbers::pi / 2)), crossed, 1e-12);
+  EXPECT_EQ(footprint_overlap(at(0, 0, 0), at(0, size.y() + 0.01, 0)), 0);
+  EXPECT_NEAR(footprint_overlap(at(0, 0, 0), at(1, 1, 0.6)),
+              footprint_overlap(at(1, 1, 0.6), at(0, 0, 0)), 1e-12);
 }
 
 /// The covariance turns with the frame: the same step of the same box has the same distance.
