@@ -63,7 +63,7 @@ TEST(ModelAlgebra, OverlapOfFootprintsIsTheirSharedAreaOfTheSmallerOne) {
   const auto at = [](double x, double y, double yaw) {
     Cuboid placed = car(0);
     placed.pose = SE3(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
-    placed.pose.translation() = {x, y, 0.7};
+    placed.pose.translation() = Eigen::Vector3d(x, y, 0.7);
     return placed;
   };
   const Eigen::Vector2d size = car(0).size.head<2>();
