@@ -42,7 +42,8 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                autonomy::uncertainty_for(config.autonomy)),
       body_pose_(config.autonomy.body_pose, lidar::mount_pose(config.autonomy.mount)),
       planning_(config.autonomy.planning, config.autonomy.active, config.autonomy.motion,
-                config.autonomy.objects, input.prior, config.autonomy.mission.height_m),
+                config.autonomy.objects, input.prior, config.autonomy.mission.height_m,
+                autonomy::uncertainty_for(config.autonomy)),
       has_targets_(!planning_.policy().idle()),
       guidance_(config.autonomy.guidance),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()) {

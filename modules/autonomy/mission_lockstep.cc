@@ -28,7 +28,7 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       window_(config.detection.window_s),
       mapping_(config.detection, config.slam, config.objects, uncertainty_for(config)),
       planning_(config.planning, config.active, config.motion, config.objects, prior,
-                config.mission.height_m),
+                config.mission.height_m, uncertainty_for(config)),
       guidance_(config.guidance),
       supervisor_(config.safety, config.mission, planning_.geofence()),
       sensor_(sensor),
