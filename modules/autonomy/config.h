@@ -104,8 +104,9 @@ struct Config {
 /// is missing or not valid.
 [[nodiscard]] inline std::shared_ptr<const uncertainty::Model> uncertainty_for(
     const Config& config) {
-  const bool fixed = config.slam.measurement_noise == slam::NoiseSource::fixed;
-  if (fixed && config.active.policy == active::PolicyName::visit) return nullptr;
+  const bool for_slam = config.slam.measurement_noise == slam::NoiseSource::fitted;
+  const bool for_views = config.active.policy != active::PolicyName::visit;
+  if (!for_slam && !for_views) return nullptr;
   return load_uncertainty(config.uncertainty, config.objects);
 }
 
