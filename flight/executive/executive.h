@@ -98,6 +98,7 @@ class Executive {
   segmentation::Segmentation segmentation_;
   autonomy::MotionLog motion_log_;
   autonomy::LabelledWindow window_;
+  std::shared_ptr<const uncertainty::Model> uncertainty_;  // null: nothing needs it
   autonomy::Mapping mapping_;
   MapSender map_sender_;
   int map_cycles_ = 0;

@@ -104,7 +104,8 @@ struct Config {
 /// is missing or not valid.
 [[nodiscard]] inline std::shared_ptr<const uncertainty::Model> uncertainty_for(
     const Config& config) {
-  if (config.slam.measurement_noise == slam::NoiseSource::fixed) return nullptr;
+  const bool fixed = config.slam.measurement_noise == slam::NoiseSource::fixed;
+  if (fixed && config.active.policy == active::PolicyName::visit) return nullptr;
   return load_uncertainty(config.uncertainty, config.objects);
 }
 

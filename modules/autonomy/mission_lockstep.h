@@ -112,6 +112,7 @@ class MissionLockstep {
   BodyPose body_pose_;
   MotionLog motion_log_;
   LabelledWindow window_;
+  std::shared_ptr<const uncertainty::Model> uncertainty_;  // null: nothing needs it
   Mapping mapping_;
   Planning planning_;
   Guidance guidance_;

@@ -43,7 +43,7 @@ SE3 lidar_pose(int k, double range) {
 /// Of length and width.
 struct Outcome {
   Eigen::Vector2d error;
-  double nees;  ///< a degree of freedom
+  double nees;  ///< a degree of freedom; NaN: the car is not in the map
 };
 
 /// Flies around one car. What its measurements have in common and what those of a cell share is
@@ -74,7 +74,8 @@ class Round {
     }
     objects::ObjectMap map = slam.map_with_covariance().map;
     noise.add_common(map);
-    const objects::MapObject& found = map.objects.at(0);
+    if (map.objects.size() != 1) return {Eigen::Vector2d::Constant(NAN), NAN};
+    const objects::MapObject& found = map.objects[0];
     const Eigen::Vector2d error =
         (std::get<Cuboid>(found.model).size - truth_.size).head<2>().eval();
     const Eigen::Matrix2d P = found.covariance.block<2, 2>(6, 6);

@@ -17,7 +17,7 @@ inline uncertainty::GeometricModel::Parts errors(int sectors, const Eigen::Vecto
   uncertainty::GeometricModel::Parts parts;
   parts.intervals = {{2, 7, 12}, sectors};
   for (int i = 0; i < parts.intervals.size(); ++i) {
-    const double worse = 1 + 0.1 * i;  // no two intervals alike
+    const double worse = 1 + 0.02 * i;  // no two intervals alike
     parts.fitted.push_back(
         {worse * bias, (worse * sd).cwiseAbs2().asDiagonal(), Eigen::VectorXd(), 50});
   }
