@@ -47,9 +47,11 @@ std::vector<Eigen::Vector3i> cells_within_radius(const OccupancyGrid& grid, cons
   return found;
 }
 
-/// Follows a trajectory within 0.15 m. \return whether the verdict was clear at 10 Hz
-bool clear_all_along(const Trajectory& trajectory, const OccupancyGrid& grid, core::Rng rng) {
-  for (Time now = trajectory.start; now <= trajectory.end(); now += from_seconds(0.1)) {
+/// Follows a trajectory within 0.15 m until it is well away. \return whether the verdict was clear
+/// at 5 Hz
+bool clear_while_it_leaves(const Trajectory& trajectory, const OccupancyGrid& grid, core::Rng rng) {
+  const Time away = trajectory.start + from_seconds(2.4);
+  for (Time now = trajectory.start; now <= away; now += from_seconds(0.2)) {
     const double x = rng.uniform(-0.1, 0.1), y = rng.uniform(-0.1, 0.1);
     const Vector3d off(x, y, rng.uniform(-0.05, 0.05));
     Exemption exemption;
@@ -61,7 +63,7 @@ bool clear_all_along(const Trajectory& trajectory, const OccupancyGrid& grid, co
 
 TEST(Departure, LeavesWhatIsNearerThanTheRadiusAndComesNearerToNothing) {
   int blocked = 0, left = 0, clear = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const made::World world = crowded(seed);
     const auto grid = world.grid();
     const auto close = cells_within_radius(*grid, kHere);
@@ -78,9 +80,9 @@ TEST(Departure, LeavesWhatIsNearerThanTheRadiusAndComesNearerToNothing) {
       });
       EXPECT_GE(least_m, now_m - ClearanceConfig::kAsNear_m) << "seed " << seed;
     }
-    clear += clear_all_along(result.trajectory, *grid, core::Rng(seed)) ? 1 : 0;
+    clear += clear_while_it_leaves(result.trajectory, *grid, core::Rng(seed)) ? 1 : 0;
   }
-  EXPECT_GE(blocked, 30);
+  EXPECT_GE(blocked, 12);
   EXPECT_GE(left, blocked * 9 / 10);
   EXPECT_GE(clear, left * 9 / 10);
   RecordProperty("blocked", blocked);
