@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "lidar/imu_packet.h"
-
 namespace saker::autonomy {
 namespace {
 
@@ -53,11 +51,6 @@ void RecordedPlant::step_to(Time time) {
 std::vector<SensorPacket> RecordedPlant::take_packets() {
   auto packets = SimulatedPlant::take_packets();
   if (link == Link::gone) packets.clear();
-  if (link == Link::blind) {
-    std::erase_if(packets, [](const SensorPacket& packet) {
-      return packet.payload.size() != lidar::kImuPacketBytes;
-    });
-  }
   return packets;
 }
 
@@ -114,13 +107,8 @@ FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
 }
 
 bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
-                            const std::function<void()>& fault, double lasts_s,
-                            const std::function<void()>& over) {
-  plant.watch = [=, this, lasts = true](const simulation::VehicleTruth& truth) mutable {
-    if (fault_ != 0 && lasts && to_seconds(truth.stamp - fault_) >= lasts_s) {
-      lasts = false;
-      over();
-    }
+                            const std::function<void()>& fault) {
+  plant.watch = [=, this](const simulation::VehicleTruth& truth) {
     if (fault_ != 0 || !when(truth)) return;
     fault_ = truth.stamp;
     fault();
@@ -132,15 +120,10 @@ bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTr
 }
 
 bool FaultyFlight::fly_fast_into(const std::function<void()>& fault) {
-  return fly_fast_into(fault, INFINITY, [] {});
-}
-
-bool FaultyFlight::fly_fast_into(const std::function<void()>& fault, double lasts_s,
-                                 const std::function<void()>& over) {
   const auto fast = [](const simulation::VehicleTruth& truth) {
     return truth.velocity.head<2>().norm() > kFast;
   };
-  return fly_into(fast, fault, lasts_s, over);
+  return fly_into(fast, fault);
 }
 
 bool FaultyFlight::fly_into_event() {
