@@ -15,7 +15,7 @@ namespace {
 using namespace made;
 using objects::Cuboid;
 
-constexpr int kCars = 100;
+constexpr int kCars = 60;
 constexpr int kViews = 10;   // around each
 constexpr int kWindows = 5;  // from each view
 
@@ -67,7 +67,7 @@ class Round {
         input.stamp = from_seconds(seconds += 0.5);
         input.T_odom_lidar = T_odom_world * T_world_lidar;
         input.odometry_covariance = 1e-8 * Matrix6d::Identity();
-        input.detections.measurements = {measured(T_world_lidar)};
+        input.detections.measurements = {measured(T_world_lidar, input.stamp)};
         input.detections = noise.applied(input.detections, input.T_odom_lidar.linear());
         (void)slam.update(input, core::Budget::iterations(4));
       }
@@ -83,7 +83,7 @@ class Round {
   }
 
  private:
-  objects::Measurement measured(const SE3& T_world_lidar) {
+  objects::Measurement measured(const SE3& T_world_lidar, Time stamp) {
     const auto view = uncertainty::view_of(T_world_lidar.translation(), truth_);
     const auto fitted = model_.predict(kVehicle, view);
     if (!of_cell_.contains(fitted.cell)) of_cell_[fitted.cell] = sample(rng_, fitted.covariance);
@@ -92,6 +92,7 @@ class Round {
     cuboid.pose.translation() += Eigen::Vector3d(error[0], error[1], 0);
     cuboid.size.head<2>() += error.tail<2>();
     objects::Measurement m;
+    m.stamp = stamp;
     m.class_id = kVehicle;
     m.class_probability = {0.02, 0.92, 0.02, 0.02, 0.02};
     m.model = objects::transformed(T_world_lidar.inverse(), objects::Model(cuboid));
