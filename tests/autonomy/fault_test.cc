@@ -14,6 +14,7 @@ constexpr double kSettled_s = 2;
 constexpr double kLongEnough_s = 3;
 constexpr double kRecovers_s = 4;     // safety.recover_s, and a moment
 constexpr double kFliesAgain_s = 12;  // replanned, sped up
+constexpr double kGap_s = 0.55;       // longer than safety.lidar_s
 
 /// As soon as it flies so fast.
 std::vector<ScenarioEvent> on_the_way(ScenarioEventKind kind, double speed = FaultyFlight::kFast) {
@@ -49,6 +50,18 @@ TEST(Fault, ACheckerThatBeganAgainWithNothingIsFlownByAgain) {
   flight.checker.begin();
   flight.go_on(kRecovers_s);
   EXPECT_GE(flight.said_after(Cause::recovered), kLongEnough_s);
+  EXPECT_EQ(flight.result().phase, MissionPhase::tour);
+  EXPECT_TRUE(flight.flies_fast_again(kFliesAgain_s));
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST(Fault, AfterAGapOfScansItGoesOn) {
+  FaultyFlight flight;
+  ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::blind; }, kGap_s,
+                                   [&] { flight.plant.link = RecordedPlant::Link::up; }));
+  flight.go_on(kLongEnough_s + kRecovers_s);
+  EXPECT_LE(flight.said_after(Cause::lidar_silent), kSettled_s);
+  EXPECT_GE(flight.said_after(Cause::recovered), kGap_s);
   EXPECT_EQ(flight.result().phase, MissionPhase::tour);
   EXPECT_TRUE(flight.flies_fast_again(kFliesAgain_s));
   EXPECT_EQ(flight.collisions(), 0);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lidar/imu_packet.h"
+
 namespace saker::autonomy {
 namespace {
 
@@ -51,6 +53,11 @@ void RecordedPlant::step_to(Time time) {
 std::vector<SensorPacket> RecordedPlant::take_packets() {
   auto packets = SimulatedPlant::take_packets();
   if (link == Link::gone) packets.clear();
+  if (link == Link::blind) {
+    std::erase_if(packets, [](const SensorPacket& packet) {
+      return packet.payload.size() != lidar::kImuPacketBytes;
+    });
+  }
   return packets;
 }
 
@@ -67,13 +74,13 @@ std::vector<CommandAck> RecordedPlant::take_acks() {
 }
 
 void RecordedPlant::send(const VehicleOdometry& odometry) {
-  if (link == Link::up) SimulatedPlant::send(odometry);
+  if (hears()) SimulatedPlant::send(odometry);
 }
 void RecordedPlant::send(const Setpoint& setpoint) {
-  if (link == Link::up) SimulatedPlant::send(setpoint);
+  if (hears()) SimulatedPlant::send(setpoint);
 }
 void RecordedPlant::send(const Command& command) {
-  if (link == Link::up) SimulatedPlant::send(command);
+  if (hears()) SimulatedPlant::send(command);
 }
 
 void MortalChecker::begin() {
@@ -107,8 +114,13 @@ FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
 }
 
 bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
-                            const std::function<void()>& fault) {
-  plant.watch = [=, this](const simulation::VehicleTruth& truth) {
+                            const std::function<void()>& fault, double lasts_s,
+                            const std::function<void()>& over) {
+  plant.watch = [=, this, lasts = true](const simulation::VehicleTruth& truth) mutable {
+    if (fault_ != 0 && lasts && to_seconds(truth.stamp - fault_) >= lasts_s) {
+      lasts = false;
+      over();
+    }
     if (fault_ != 0 || !when(truth)) return;
     fault_ = truth.stamp;
     fault();
@@ -120,10 +132,15 @@ bool FaultyFlight::fly_into(const std::function<bool(const simulation::VehicleTr
 }
 
 bool FaultyFlight::fly_fast_into(const std::function<void()>& fault) {
+  return fly_fast_into(fault, INFINITY, [] {});
+}
+
+bool FaultyFlight::fly_fast_into(const std::function<void()>& fault, double lasts_s,
+                                 const std::function<void()>& over) {
   const auto fast = [](const simulation::VehicleTruth& truth) {
     return truth.velocity.head<2>().norm() > kFast;
   };
-  return fly_into(fast, fault);
+  return fly_into(fast, fault, lasts_s, over);
 }
 
 bool FaultyFlight::fly_into_event() {

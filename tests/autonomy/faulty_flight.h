@@ -15,8 +15,9 @@ class RecordedPlant : public tools::SimulatedPlant {
  public:
   enum class Link {
     up,
-    deaf,  ///< nothing reaches the vehicle: the executive has died
-    gone   ///< nothing comes from it either: the plant has died
+    deaf,   ///< nothing reaches the vehicle: the executive has died
+    blind,  ///< no scans come from it, all else does
+    gone    ///< nothing comes from it either: the plant has died
   };
   struct Row {
     simulation::VehicleTruth truth;
@@ -40,6 +41,8 @@ class RecordedPlant : public tools::SimulatedPlant {
   std::function<void(const simulation::VehicleTruth&)> watch;  ///< at every step
 
  private:
+  [[nodiscard]] bool hears() const { return link == Link::up || link == Link::blind; }
+
   simulation::SimulatedVehicle& vehicle_;
 };
 
@@ -69,6 +72,9 @@ class FaultyFlight {
 
   /// The fault comes when it flies faster than `kFast`; false when it never does.
   bool fly_fast_into(const std::function<void()>& fault);
+  /// The same with a fault that is over after so many seconds.
+  bool fly_fast_into(const std::function<void()>& fault, double lasts_s,
+                     const std::function<void()>& over);
   /// The fault is the scenario's event; false when it never begins.
   bool fly_into_event();
   /// The fault comes so long after it left the ground.
@@ -93,7 +99,8 @@ class FaultyFlight {
 
  private:
   bool fly_into(const std::function<bool(const simulation::VehicleTruth&)>& when,
-                const std::function<void()>& fault);
+                const std::function<void()>& fault, double lasts_s = INFINITY,
+                const std::function<void()>& over = {});
 
   Config config_;
   core::Timings timings_;
