@@ -122,5 +122,16 @@ TEST(ModelFileTest, AMissingFileIsNamed) {
   }
 }
 
+TEST(ModelFileTest, TheShippedModelIsValidAndKnowsWhatIsMapped) {
+  const Model model = Model::load(SAKER_SOURCE_DIR "/configs/models/uncertainty.yaml", kTable);
+  for (const char* name : {"vehicle", "trunk", "pole"}) {
+    EXPECT_TRUE(model.knows(kTable.find(name))) << name;
+  }
+  View oblique;
+  oblique.range = 9;
+  oblique.angle = 0.8;
+  EXPECT_FALSE(model.predict(kTable.find("vehicle"), oblique).extrapolated);
+}
+
 }  // namespace
 }  // namespace saker::uncertainty
