@@ -85,7 +85,6 @@ class Guidance {
   [[nodiscard]] const std::shared_ptr<const motion::Trajectory>& committed() const {
     return committed_;
   }
-  [[nodiscard]] bool stopping() const { return stopping_; }  ///< nothing new was committed since
   [[nodiscard]] const GuidanceStop& last_stop() const { return last_stop_; }
 
  private:

@@ -16,6 +16,10 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(long done);
+  void update(long done, long total) {  ///< the total has become another
+    total_ = total;
+    update(done);
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

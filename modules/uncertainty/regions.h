@@ -34,7 +34,7 @@ struct RegionConfig {
 /// off). Where no view that was flown reaches the threshold, the best share of the views instead.
 ///
 /// The probability is Gaussian, over 512 fixed draws: the same for the same view, to about 0.01.
-/// The model must outlive this. Cost: below 60 microseconds a view.
+/// The model must outlive this. Cost: one prediction and a sum over fixed draws a view.
 class Regions {
  public:
   /// Throws Error on a class that the model does not know.

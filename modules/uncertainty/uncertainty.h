@@ -16,8 +16,8 @@
 /// covariance of its model, for SLAM (noise of what was measured) and for active mapping (what a
 /// viewpoint will tell).
 ///
-/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: below 30 microseconds a
-/// prediction.
+/// Method: the paper, "Uncertainty modeling": f^s and f^g. Cost: a prediction
+/// evaluates a dozen splines.
 namespace saker::uncertainty {
 
 /// What to expect of a measurement of one object from one view.

@@ -43,7 +43,7 @@ void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
     viewpoints_.add(report.stamp, flown.target_id, flown.viewpoint_id, sd);
   }
   if (progress_ != nullptr && report.targets > 0) {
-    progress_->update(report.visited + report.unreachable);
+    progress_->update(report.visited + report.unreachable, report.targets);
   }
   if (plan.goal && plan.goal->id != viewpoint_) {
     viewpoint_ = plan.goal->id;
