@@ -11,6 +11,12 @@ constexpr unsigned kChildren = 8;
 
 }  // namespace
 
+/// OctoMap's nodes lie all over memory: fetched together, a node's children wait for each other's.
+void MapTree::fetch_children(const octomap::OcTreeNode& node) const {
+  for (unsigned i = 0; i < kChildren; ++i)
+    if (nodeChildExists(&node, i)) __builtin_prefetch(getNodeChild(&node, i));
+}
+
 void MapTree::update(const ScanBox& box) {
   if (box.seen(kWhole) == kUnseen) return;
   const bool fresh = root == nullptr;
@@ -34,6 +40,7 @@ void MapTree::update(octomap::OcTreeNode& node, bool fresh, const KeyCube& cube,
     if (stays(node, seen)) return;
     expandNode(&node);
   }
+  if (nodeHasChildren(&node)) fetch_children(node);
   for (unsigned i = 0; i < kChildren; ++i) {
     const KeyCube child = cube.child(static_cast<int>(i));
     if (box.seen(child) == kUnseen) continue;
@@ -127,6 +134,7 @@ void MapTree::copy(const octomap::OcTreeNode& node, const KeyCube& cube,
   const Eigen::Vector3i high = (corner.array() + cube.edge).matrix().cwiseMin(size);
   if ((low.array() >= high.array()).any()) return;
   if (nodeHasChildren(&node)) {
+    fetch_children(node);
     for (unsigned i = 0; i < kChildren; ++i)
       if (nodeChildExists(&node, i))
         copy(*getNodeChild(&node, i), cube.child(static_cast<int>(i)), lowest, size, cells);

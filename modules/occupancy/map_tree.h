@@ -27,6 +27,7 @@ class MapTree : public octomap::OcTree {
  private:
   struct Ball;
 
+  void fetch_children(const octomap::OcTreeNode& node) const;
   void update(octomap::OcTreeNode& node, bool fresh, const KeyCube& cube, const ScanBox& box);
   [[nodiscard]] bool stays(const octomap::OcTreeNode& leaf, std::uint8_t seen) const;
   bool drop(octomap::OcTreeNode& node, const KeyCube& cube, const Ball& keep);

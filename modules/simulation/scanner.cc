@@ -10,15 +10,17 @@ namespace {
 
 constexpr int kMostSurfaces = 6;  ///< that a beam may pass
 
-/// Two independent normal numbers for little more than the cost of one: Box–Muller's both.
-std::pair<double, double> two_normals(core::Rng& rng) {
-  const double radius = std::sqrt(-2 * std::log(1 - rng.uniform()));
-  const double angle = 2 * std::numbers::pi * rng.uniform();
+/// Two independent normal numbers for little more than the cost of one: Box–Muller's both, in the
+/// precision that millimetres need.
+std::pair<float, float> two_normals(core::Rng& rng) {
+  const float radius = std::sqrt(-2 * std::log(static_cast<float>(1 - rng.uniform())));
+  const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(rng.uniform());
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 /// Share of the light that comes back from where it met the surface, of the diffuse one.
 double returned_share(const Material& m, double cosine, double diffuse) {
+  if (m.gloss == 0) return diffuse;
   const double highlight = m.gloss * 2.5 * std::exp(-(1 - cosine) / 0.02);
   return (1 - m.gloss) * diffuse + highlight;
 }
@@ -62,14 +64,13 @@ Scanner::Scanner(const RayCaster& caster, const World& world, BeamTable beams,
 void Scanner::aim(int column, const SE3& T_world_lidar, core::Rng& rng,
                   std::vector<Shot>& shots) const {
   const Eigen::Isometry3f T = T_world_lidar.cast<float>();
-  const double spread = 1e-3 * config_.divergence_mrad;
+  const auto spread = static_cast<float>(1e-3 * config_.divergence_mrad);
   for (int row = 0; row < beams_.rows; ++row) {
     const std::size_t i = beams_.index(row, column);
     const auto [across, along] = two_normals(rng);
     const Eigen::Vector3f& beam = beams_.directions[i];
     const Eigen::Vector3f aside = beam.unitOrthogonal();
-    const Eigen::Vector3f jitter = static_cast<float>(spread * across) * aside +
-                                   static_cast<float>(spread * along) * beam.cross(aside);
+    const Eigen::Vector3f jitter = spread * across * aside + spread * along * beam.cross(aside);
     Shot shot;
     shot.origin = T * beams_.origins[i];
     shot.direction = T.linear() * (beam + jitter).normalized();
@@ -118,7 +119,7 @@ void Scanner::receive(const Shot& shot, int row, int column, core::Rng& rng, Cas
   if (!shot.hit || rng.chance(config_.drop_share)) return;
   const Material& m = world_->materials[shot.material];
   const double cosine = std::max(0.01, static_cast<double>(shot.cosine));
-  const double diffuse = std::pow(cosine, 0.7);
+  const double diffuse = std::pow(static_cast<float>(cosine), 0.7F);
   const double share = returned_share(m, cosine, diffuse);
   const double reflectivity = std::clamp(m.reflectivity + rng.normal(0, m.spread), 0.005, 1.0);
   if (rng.chance(mirrored_away(m, cosine))) return;

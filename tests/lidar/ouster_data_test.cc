@@ -8,13 +8,14 @@
 #include "lidar/ouster_capture.h"
 #include "made_sensor.h"
 #include "md5.h"
+#include "paths.h"
 
 namespace saker::lidar {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kData = SAKER_SOURCE_DIR "/../shared/data";
+const fs::path kData = source_dir() + "/../shared/data";
 
 std::vector<fs::path> captures() {
   std::vector<fs::path> files;

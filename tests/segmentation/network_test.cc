@@ -6,12 +6,13 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "paths.h"
 #include "segmentation/features.h"
 
 namespace saker::segmentation {
 namespace {
 
-const std::string kFolder = SAKER_SOURCE_DIR "/tests/segmentation/small/";
+const std::string kFolder = source_dir() + "/tests/segmentation/small/";
 
 std::string bytes_of(const std::string& file) {
   std::ifstream stream(kFolder + file, std::ios::binary);

@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "lidar/kitti_folder.h"
+#include "paths.h"
 #include "segmentation/segmentation.h"
 
 namespace saker::segmentation {
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kData = SAKER_SOURCE_DIR "/../shared/data";
+const fs::path kData = source_dir() + "/../shared/data";
 constexpr std::array<std::uint32_t, 5> kIgnored = {0, 1, 52, 81, 99};  // ids that do not count
 
 std::vector<std::uint32_t> true_ids(const fs::path& file) {

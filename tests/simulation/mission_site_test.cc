@@ -8,6 +8,7 @@
 #include "core/config_io.h"
 #include "core/error.h"
 #include "core/statistics.h"
+#include "paths.h"
 #include "simulation/mission_world.h"
 #include "simulation/scenario.h"
 
@@ -59,7 +60,7 @@ Shot cast(const RayCaster& caster, const Eigen::Vector3d& from, const Eigen::Vec
 }
 
 MissionConfig shipped(const std::string& scenario) {
-  const std::string file = SAKER_SOURCE_DIR "/configs/scenarios/" + scenario + ".yaml";
+  const std::string file = source_dir() + "/configs/scenarios/" + scenario + ".yaml";
   return core::load_config<Scenario>(file, {}).mission;
 }
 

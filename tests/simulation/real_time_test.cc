@@ -11,6 +11,7 @@
 #include "lidar/ouster_stream.h"
 #include "lidar/udp_receiver.h"
 #include "objects/map_io.h"
+#include "paths.h"
 #include "simulation/scenario.h"
 
 namespace saker::tools {
@@ -128,7 +129,7 @@ TEST(SimRecorder, WritesWhereItIsTwentyTimesASecondAsItGoes) {
 
 TEST(Scenarios, ThoseOfTheRepositoryAreMissionsWithRoom) {
   for (const std::string name : {"demo", "small"}) {
-    const std::string file = SAKER_SOURCE_DIR "/configs/scenarios/" + name + ".yaml";
+    const std::string file = source_dir() + "/configs/scenarios/" + name + ".yaml";
     const auto scenario = core::load_config<simulation::Scenario>(file, {});
     ASSERT_EQ(scenario.kind, simulation::ScenarioKind::mission);
     const auto site = simulation::build_mission_world(scenario.mission, 1);

@@ -7,6 +7,7 @@
 #include "core/config_io.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "paths.h"
 
 namespace saker::tools {
 namespace {
@@ -16,7 +17,7 @@ const flight::ProcessConfig kDefaults;
 TEST(Configuration, TheFileInTheRepositoryIsTheOneOfTheProgram) {
   const std::filesystem::path written = std::filesystem::path(testing::TempDir()) / "default.yaml";
   core::write_file(written, configuration_text(kDefaults));
-  EXPECT_TRUE(core::read_file(written) == core::read_file(SAKER_SOURCE_DIR "/configs/default.yaml"))
+  EXPECT_TRUE(core::read_file(written) == core::read_file(source_dir() + "/configs/default.yaml"))
       << "compare configs/default.yaml with " << written;
 }
 

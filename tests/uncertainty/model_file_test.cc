@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "made_samples.h"
+#include "paths.h"
 #include "uncertainty/fit.h"
 
 namespace saker::uncertainty {
@@ -123,7 +124,7 @@ TEST(ModelFileTest, AMissingFileIsNamed) {
 }
 
 TEST(ModelFileTest, TheShippedModelIsValidAndKnowsWhatIsMapped) {
-  const Model model = Model::load(SAKER_SOURCE_DIR "/configs/models/uncertainty.yaml", kTable);
+  const Model model = Model::load(source_dir() + "/configs/models/uncertainty.yaml", kTable);
   for (const char* name : {"vehicle", "trunk", "pole"}) {
     EXPECT_TRUE(model.knows(kTable.find(name))) << name;
   }

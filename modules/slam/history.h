@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/se3.h"
+#include "core/time.h"
+#include "objects/measurement.h"
+
+namespace saker::slam {
+
+/// A keyframe of a robot and what was measured from there.
+struct HistoryEntry {
+  Time stamp = 0;
+  SE3 T_odom_lidar = SE3::Identity();
+  /// Of the motion since the previous entry: [rotation, translation], right tangent at this pose.
+  Matrix6d motion_covariance = Matrix6d::Constant(NAN);
+  std::vector<objects::Measurement> measurements;  ///< in the lidar frame at `stamp`
+};
+
+/// What one flight of one robot saw: all that another robot needs to build the same graph. Entries
+/// are only ever appended, and never change once they are there.
+struct History {
+  std::string robot;
+  std::uint32_t flight = 0;  ///< of this robot, counted from 1
+  std::vector<HistoryEntry> entries;
+};
+
+}  // namespace saker::slam

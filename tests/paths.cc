@@ -1,0 +1,7 @@
+#include "paths.h"
+
+namespace saker {
+
+std::string source_dir() { return SAKER_SOURCE_DIR; }
+
+}  // namespace saker
