@@ -16,7 +16,11 @@ struct HistoryEntry {
   SE3 T_odom_lidar = SE3::Identity();
   /// Of the motion since the previous entry: [rotation, translation], right tangent at this pose.
   Matrix6d motion_covariance = Matrix6d::Constant(NAN);
-  std::vector<objects::Measurement> measurements;  ///< in the lidar frame at `stamp`
+  /// In the lidar frame at `stamp`, one an object at most, as the graph weighs them: nothing is to
+  /// be added to their covariances. Each may gather several windows' of the last keyframes, whose
+  /// class probabilities are fused and whose front log-odds and points are summed. With `moving`
+  /// set what was told of the object is void.
+  std::vector<objects::Measurement> measurements;
 };
 
 /// What one flight of one robot saw: all that another robot needs to build the same graph. Entries

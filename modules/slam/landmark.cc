@@ -34,29 +34,8 @@ double evidence(double shape_probability, const LandmarkConfig& config) {
   return logit(p) - logit(config.clutter_probability);
 }
 
-std::vector<double> clamped_log(const std::vector<double>& probability, double least) {
-  std::vector<double> logs;
-  for (const double p : probability)
-    logs.push_back(std::log(std::isfinite(p) ? std::clamp(p, least, 1 - least) : least));
-  return logs;
-}
-
 void fuse_front(Landmark& landmark, const Eigen::Vector2d& front) {
   landmark.front = (landmark.front + front).cwiseMax(-kMostFront).cwiseMin(kMostFront);
-}
-
-/// Two observations from one keyframe and one cell. Without a cell their errors are independent;
-/// windows from one cell share theirs, so that their mean is no better than one of them.
-void join(Observation& a, const Observation& b) {
-  const int windows = a.windows + b.windows;
-  if (a.cell < 0) {
-    a.measured = fused(a.measured, b.measured);
-  } else {
-    a.measured = fused({a.measured.model, a.measured.covariance / a.windows},
-                       {b.measured.model, b.measured.covariance / b.windows});
-    a.measured.covariance *= windows;
-  }
-  a.windows = windows;
 }
 
 /// Observations stay in the order of keyframes and cells, one each.
@@ -69,21 +48,6 @@ void remember(Landmark& landmark, const Observation& observation) {
   } else {
     all.insert(at, observation);
   }
-}
-
-/// Of the longer edge: the length, whichever way the cuboid was named.
-double length_sd(const objects::Measurement& measured) {
-  if (std::isfinite(measured.length_sd)) return measured.length_sd;
-  const auto& size = std::get<Cuboid>(measured.model).size;
-  const int longer = size.x() >= size.y() ? 0 : 1;
-  return std::sqrt(measured.covariance(6 + longer, 6 + longer));
-}
-
-int turn_between(const Model& model, const Model& reference, const LandmarkConfig& config) {
-  if (!is_cuboid(model)) return 0;
-  const auto& a = std::get<Cuboid>(model);
-  const auto& b = std::get<Cuboid>(reference);
-  return nearest_turn(a, b, turns_by_quarters(a, b, config));
 }
 
 Gaussian turned_by(const Gaussian& measured, int quarters) {
@@ -122,6 +86,39 @@ objects::Shape shape_of(const Model& model) {
 }
 
 }  // namespace
+
+std::vector<double> clamped_log(const std::vector<double>& probability, double least) {
+  std::vector<double> logs;
+  for (const double p : probability)
+    logs.push_back(std::log(std::isfinite(p) ? std::clamp(p, least, 1 - least) : least));
+  return logs;
+}
+
+void join(Observation& a, const Observation& b) {
+  const int windows = a.windows + b.windows;
+  if (a.cell < 0) {
+    a.measured = fused(a.measured, b.measured);
+  } else {
+    a.measured = fused({a.measured.model, a.measured.covariance / a.windows},
+                       {b.measured.model, b.measured.covariance / b.windows});
+    a.measured.covariance *= windows;
+  }
+  a.windows = windows;
+}
+
+double length_sd(const objects::Measurement& measured) {
+  if (std::isfinite(measured.length_sd)) return measured.length_sd;
+  const auto& size = std::get<Cuboid>(measured.model).size;
+  const int longer = size.x() >= size.y() ? 0 : 1;
+  return std::sqrt(measured.covariance(6 + longer, 6 + longer));
+}
+
+int turn_between(const Model& model, const Model& reference, const LandmarkConfig& config) {
+  if (!is_cuboid(model)) return 0;
+  const auto& a = std::get<Cuboid>(model);
+  const auto& b = std::get<Cuboid>(reference);
+  return nearest_turn(a, b, turns_by_quarters(a, b, config));
+}
 
 Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
                       const LandmarkConfig& config) {
@@ -199,12 +196,16 @@ std::vector<double> observation_weights(const Landmark& landmark) {
   return weights;
 }
 
-std::vector<double> class_probability(const Landmark& landmark) {
+std::vector<double> normalised(const std::vector<double>& log_probability) {
   std::vector<double> probability;
   double sum = 0;
-  for (const double value : landmark.class_log) sum += probability.emplace_back(std::exp(value));
+  for (const double value : log_probability) sum += probability.emplace_back(std::exp(value));
   for (double& p : probability) p /= sum;
   return probability;
+}
+
+std::vector<double> class_probability(const Landmark& landmark) {
+  return normalised(landmark.class_log);
 }
 
 objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& table) {

@@ -136,6 +136,24 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
 void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
             const LandmarkConfig& config);
 
+/// Takes in a second observation from the same keyframe and cell. Without a cell their errors are
+/// independent; windows from one cell share theirs, so that their mean is no better than one of
+/// them.
+void join(Observation& a, const Observation& b);
+
+/// Quarters that turn a measured cuboid to the nearer of two headings of `reference`: of four where
+/// one of them is nearly square. 0 for cylinders.
+[[nodiscard]] int turn_between(const Model& model, const Model& reference,
+                               const LandmarkConfig& config);
+
+/// What a measurement says of the longer edge of its cuboid, m: the length, whichever way it was
+/// named.
+[[nodiscard]] double length_sd(const objects::Measurement& measured);
+
+/// The logarithms of probabilities, none of them below `least` or above 1 − least, and back.
+[[nodiscard]] std::vector<double> clamped_log(const std::vector<double>& probability, double least);
+[[nodiscard]] std::vector<double> normalised(const std::vector<double>& log_probability);
+
 /// Takes over all that `other` knows: two candidates were one object.
 void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config);
 

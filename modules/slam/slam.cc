@@ -39,7 +39,8 @@ Slam::Slam(const SlamConfig& config, const objects::ClassTable& table)
     : config_(core::checked(config, "slam")),
       table_(table),
       trajectory_(config.keyframes),
-      ground_(config.ground) {}
+      ground_(config.ground),
+      recorder_(config.history) {}
 
 SlamUpdate Slam::update(const SlamInput& input, const core::Budget& budget) {
   SlamUpdate report;
@@ -49,6 +50,7 @@ SlamUpdate Slam::update(const SlamInput& input, const core::Budget& budget) {
   last_stamp_ = input.stamp;
   report.keyframe_added =
       trajectory_.advance(input.stamp, input.T_odom_lidar, input.odometry_covariance);
+  if (report.keyframe_added) record();
   retire();
   const std::vector<Candidate> candidates = accepted(input.detections, report);
   integrate(candidates, report);
@@ -57,6 +59,12 @@ SlamUpdate Slam::update(const SlamInput& input, const core::Budget& budget) {
   optimise(budget, report);
   report.T_world_lidar = trajectory_.T_world_lidar();
   return report;
+}
+
+void Slam::record() {
+  const std::vector<Keyframe>& all = trajectory_.keyframes();
+  if (all.size() < 2) return;
+  recorder_.close(all[all.size() - 2], all.back(), landmarks_, config_.landmarks);
 }
 
 void Slam::retire() {
@@ -104,6 +112,7 @@ void Slam::integrate(const std::vector<Candidate>& candidates, SlamUpdate& repor
       ++report.created;
       landmarks_.push_back(
           new_landmark(next_id_++, candidate, trajectory_.newest().serial, config_.landmarks));
+      recorder_.measured(landmarks_.back(), candidate, config_.landmarks);
     }
   }
 }
@@ -114,6 +123,7 @@ void Slam::take(Landmark& landmark, const Candidate& candidate) {
     follow(landmark, candidate, keyframe, config_.landmarks);
   } else {
     observe(landmark, candidate, keyframe, config_.landmarks);
+    recorder_.measured(landmark, candidate, config_.landmarks);
     restart_if_better(landmark, trajectory_, config_.graph);
   }
 }

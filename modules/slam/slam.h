@@ -13,6 +13,7 @@
 #include "slam/duplicates.h"
 #include "slam/graph.h"
 #include "slam/ground_map.h"
+#include "slam/history_recorder.h"
 #include "slam/landmark.h"
 #include "slam/measurement_noise.h"
 #include "slam/trajectory.h"
@@ -33,6 +34,7 @@ struct SlamConfig {
   DuplicateConfig duplicates;
   GraphConfig graph;
   GroundMapConfig ground;
+  HistoryConfig history;
   NoiseSource measurement_noise = NoiseSource::fixed;
   MeasurementNoiseConfig noise;
 
@@ -44,6 +46,7 @@ struct SlamConfig {
     v.group("duplicates", duplicates, "when two objects are one");
     v.group("graph", graph, "the optimisation");
     v.group("ground", ground, "the map's local ground planes");
+    v.group("history", history, "what other robots are told");
     v.field("measurement_noise", measurement_noise, "",
             "of measurements: fitted to flights (uncertainty.model), by where they are taken from, "
             "or fixed: what detection says");
@@ -124,6 +127,10 @@ class Slam {
 
   [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return trajectory_.keyframes(); }
 
+  /// All keyframes but the newest one, and what was measured from them; `robot` and `flight` are
+  /// left for the caller to know.
+  [[nodiscard]] const History& history() const { return recorder_.history(); }
+
   /// T_world_lidar for any scan's odometry pose: the correction of the neighbouring keyframes,
   /// interpolated.
   [[nodiscard]] SE3 corrected(Time stamp, const SE3& T_odom_lidar) const {
@@ -131,6 +138,7 @@ class Slam {
   }
 
  private:
+  void record();
   void retire();
   [[nodiscard]] std::vector<Candidate> accepted(const objects::Detections& detections,
                                                 SlamUpdate& report) const;
@@ -146,6 +154,7 @@ class Slam {
   Trajectory trajectory_;
   std::vector<Landmark> landmarks_;  ///< ascending id
   GroundMap ground_;
+  HistoryRecorder recorder_;
   int next_id_ = 0;
   std::optional<Time> last_stamp_;
 };
