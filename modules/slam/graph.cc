@@ -56,18 +56,21 @@ ceres::Problem::Options keep_ownership() {
 /// keyframes and landmarks, so that nothing depends on addresses.
 class Graph {
  public:
+  /// \param movable keyframes, the newest; those before them, at least one, are held.
   Graph(const std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
-        const GraphConfig& config)
+        const GraphConfig& config, std::size_t movable)
       : loss_(config.robust_scale),
         shorter_weight_(config.shorter_weight),
         problem_(keep_ownership()) {
     reserve(keyframes, landmarks);
-    for (std::size_t k = 0; k < keyframes.size(); ++k) add_keyframe(keyframes, k);
-    if (!keyframes.empty()) problem_.SetParameterBlockConstant(parameters_.data());
+    const std::size_t size = keyframes.size();
+    held_ = size > movable + 1 ? size - movable : std::min<std::size_t>(size, 1);
+    for (std::size_t k = 0; k < size; ++k) add_keyframe(keyframes, k);
     for (std::size_t l = 0; l < landmarks.size(); ++l) add_landmark(keyframes, *landmarks[l], l);
   }
 
   [[nodiscard]] ceres::Problem& problem() { return problem_; }
+  [[nodiscard]] std::size_t held() const { return held_; }
   [[nodiscard]] double* pose(std::size_t k) { return parameters_.data() + k * kPoseParameters; }
   [[nodiscard]] double* landmark(std::size_t l) { return parameters_.data() + offsets_[l]; }
   [[nodiscard]] bool finite() const {
@@ -88,7 +91,10 @@ class Graph {
   void add_keyframe(const std::vector<Keyframe>& keyframes, std::size_t k) {
     write_pose(keyframes[k].T_world_lidar, pose(k));
     problem_.AddParameterBlock(pose(k), kPoseParameters, &pose_manifold_);
-    if (k == 0) return;
+    if (k < held_) {
+      problem_.SetParameterBlockConstant(pose(k));
+      return;
+    }
     const SE3 motion = keyframes[k - 1].T_odom_lidar.inverse() * keyframes[k].T_odom_lidar;
     problem_.AddResidualBlock(new OdometryFactor(motion, keyframes[k].covariance), nullptr,
                               pose(k - 1), pose(k));
@@ -130,6 +136,7 @@ class Graph {
   ceres::CauchyLoss loss_;
   std::vector<std::unique_ptr<ceres::ScaledLoss>> weighted_losses_;
   double shorter_weight_;
+  std::size_t held_ = 0;  ///< keyframes
   std::vector<double> parameters_;
   std::vector<std::size_t> offsets_;
   ceres::Problem problem_;
@@ -195,6 +202,22 @@ std::vector<Weighted> all_in_world(const Landmark& landmark, const Trajectory& t
   return all;
 }
 
+/// The measurement with the covariance that its factor and its loss make of it at the estimate.
+Gaussian as_weighed(Gaussian measured, const Model& estimate, double shorter_weight,
+                    const GraphConfig& config) {
+  if (const auto* cuboid = std::get_if<objects::Cuboid>(&measured.model)) {
+    const int longer = cuboid->size.x() >= cuboid->size.y() ? 0 : 1;
+    if (cuboid->size[longer] < std::get<objects::Cuboid>(estimate).size[longer]) {
+      measured.covariance.row(6 + longer) /= std::sqrt(shorter_weight);
+      measured.covariance.col(6 + longer) /= std::sqrt(shorter_weight);
+    }
+  }
+  const Eigen::VectorXd error = difference(measured.model, estimate);
+  const double squared = error.dot(measured.covariance.llt().solve(error));
+  measured.covariance *= 1 + squared / (config.robust_scale * config.robust_scale);
+  return measured;
+}
+
 constexpr int kRefineSteps = 5;
 
 }  // namespace
@@ -203,7 +226,7 @@ SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* co
                         const GraphConfig& config, const core::Budget& budget) {
   SolveReport report;
   if (keyframes.size() < 2 || config.iterations == 0 || budget.used_up(0)) return report;
-  Graph graph(keyframes, landmarks, config);
+  Graph graph(keyframes, landmarks, config, static_cast<std::size_t>(config.movable_keyframes));
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(config, budget), &graph.problem(), &summary);
   report.usable = summary.IsSolutionUsable() && graph.finite();
@@ -212,11 +235,29 @@ SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* co
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
   if (!report.usable) return report;
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  for (std::size_t k = graph.held(); k < keyframes.size(); ++k)
     keyframes[k].T_world_lidar = pose_from(graph.pose(k));
   for (std::size_t l = 0; l < landmarks.size(); ++l)
     read_model(graph.landmark(l), landmarks[l]->model);
   return report;
+}
+
+void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
+               const GraphConfig& config) {
+  const auto of_from = [&](const Observation& o) { return o.keyframe == from.serial; };
+  std::vector<Observation> handed;
+  std::ranges::copy_if(landmark.observations, std::back_inserter(handed), of_from);
+  std::erase_if(landmark.observations, of_from);
+  for (Observation& observation : handed) {
+    const Gaussian in_world =
+        transformed(from.T_world_lidar, Matrix6d::Zero(), observation.measured);
+    const double shorter_weight = observation.cell < 0 ? config.shorter_weight : 1;
+    observation.measured =
+        transformed(to.T_world_lidar.inverse(), Matrix6d::Zero(),
+                    as_weighed(in_world, landmark.model, shorter_weight, config));
+    observation.keyframe = to.serial;
+    remember(landmark, observation);
+  }
 }
 
 void restart_if_better(Landmark& landmark, const Trajectory& trajectory,
@@ -253,7 +294,7 @@ CovarianceReport graph_covariance(const Trajectory& trajectory,
                                   std::span<Landmark* const> landmarks,
                                   std::span<const Landmark* const> wanted,
                                   const GraphConfig& config) {
-  Graph graph(trajectory.keyframes(), landmarks, config);
+  Graph graph(trajectory.keyframes(), landmarks, config, trajectory.keyframes().size());
   std::vector<std::pair<const double*, const double*>> blocks;
   for (const Landmark* landmark : wanted) {
     const auto at = std::find(landmarks.begin(), landmarks.end(), landmark);

@@ -14,6 +14,7 @@ struct GraphConfig {
   double function_tolerance = 1e-5;
   double robust_scale = 3;
   double shorter_weight = 0.25;
+  int movable_keyframes = 600;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -29,6 +30,9 @@ struct GraphConfig {
             "of the length's error where a vehicle was measured shorter than it is: a hidden end; "
             "0.25 makes of many "
             "windows their 94 % expectile");
+    v.field("movable_keyframes", movable_keyframes, {1, 100000}, "",
+            "the newest so many move; older ones are held where they are: what a cycle costs does "
+            "not grow for ever. Ten minutes at 1 m/s");
   }
 };
 
@@ -39,10 +43,15 @@ struct SolveReport {
   double initial_cost = 0, final_cost = 0;
 };
 
-/// Moves poses and believed landmarks to less cost; the first keyframe holds the frame. With a
-/// budget of no iterations nothing changes.
+/// Moves poses and believed landmarks to less cost; the first keyframe, or all that are too old to
+/// move, hold the frame. With a budget of no iterations nothing changes.
 SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
                         const GraphConfig& config, const core::Budget& budget);
+
+/// Hands what was measured from keyframe `from` on to keyframe `to`, both held, as it weighs in the
+/// graph now: what is held takes no more memory, however long it was looked at.
+void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
+               const GraphConfig& config);
 
 /// The landmark's estimate from its own observations with the poses held: what candidates get, and
 /// the start after a merge. \return its covariance given the poses, in the landmark's own frame.
@@ -60,7 +69,7 @@ struct CovarianceReport {
                          ///< not be computed
 };
 
-/// Covariances of `wanted` (a subset of `landmarks`) in the world frame.
+/// Covariances of `wanted` (a subset of `landmarks`) in the world frame, given the first pose only.
 [[nodiscard]] CovarianceReport graph_covariance(const Trajectory& trajectory,
                                                 std::span<Landmark* const> landmarks,
                                                 std::span<const Landmark* const> wanted,

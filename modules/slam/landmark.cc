@@ -38,18 +38,6 @@ void fuse_front(Landmark& landmark, const Eigen::Vector2d& front) {
   landmark.front = (landmark.front + front).cwiseMax(-kMostFront).cwiseMin(kMostFront);
 }
 
-/// Observations stay in the order of keyframes and cells, one each.
-void remember(Landmark& landmark, const Observation& observation) {
-  const auto key = [](const Observation& o) { return std::pair(o.keyframe, o.cell); };
-  auto& all = landmark.observations;
-  const auto at = std::ranges::lower_bound(all, key(observation), {}, key);
-  if (at != all.end() && key(*at) == key(observation)) {
-    join(*at, observation);
-  } else {
-    all.insert(at, observation);
-  }
-}
-
 Gaussian turned_by(const Gaussian& measured, int quarters) {
   return is_cuboid(measured.model) ? turned(measured, quarters) : measured;
 }
@@ -181,9 +169,15 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   landmark.farthest = std::max(landmark.farthest, other.farthest);
 }
 
-void forget(Landmark& landmark, int serial) {
-  std::erase_if(landmark.observations,
-                [serial](const Observation& o) { return o.keyframe < serial; });
+void remember(Landmark& landmark, const Observation& observation) {
+  const auto key = [](const Observation& o) { return std::pair(o.keyframe, o.cell); };
+  auto& all = landmark.observations;
+  const auto at = std::ranges::lower_bound(all, key(observation), {}, key);
+  if (at != all.end() && key(*at) == key(observation)) {
+    join(*at, observation);
+  } else {
+    all.insert(at, observation);
+  }
 }
 
 std::vector<double> observation_weights(const Landmark& landmark) {

@@ -157,8 +157,8 @@ void join(Observation& a, const Observation& b);
 /// Takes over all that `other` knows: two candidates were one object.
 void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config);
 
-/// Forgets observations from keyframes before `serial`.
-void forget(Landmark& landmark, int serial);
+/// Keeps observations in the order of keyframes and cells, one each: two of the same are joined.
+void remember(Landmark& landmark, const Observation& observation);
 
 /// What each observation weighs: all windows from one view cell share their error and weigh as one
 /// together, wherever their keyframes are; without a cell every observation weighs as one.

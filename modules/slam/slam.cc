@@ -50,8 +50,10 @@ SlamUpdate Slam::update(const SlamInput& input, const core::Budget& budget) {
   last_stamp_ = input.stamp;
   report.keyframe_added =
       trajectory_.advance(input.stamp, input.T_odom_lidar, input.odometry_covariance);
-  if (report.keyframe_added) record();
-  retire();
+  if (report.keyframe_added) {
+    record();
+    retire();
+  }
   const std::vector<Candidate> candidates = accepted(input.detections, report);
   integrate(candidates, report);
   review(report);
@@ -67,10 +69,20 @@ void Slam::record() {
   recorder_.close(all[all.size() - 2], all.back(), landmarks_, config_.landmarks);
 }
 
+/// Keyframes that no longer move, or go, hand what was measured from them on to the first one.
 void Slam::retire() {
-  if (!trajectory_.retired()) return;
-  ground_.retire(*trajectory_.retired());
-  for (Landmark& landmark : landmarks_) forget(landmark, trajectory_.keyframes().front().serial);
+  const std::vector<Keyframe>& keyframes = trajectory_.keyframes();
+  const auto hand_over_from = [&](const Keyframe& keyframe) {
+    for (Landmark& landmark : landmarks_) {
+      hand_over(landmark, keyframe, keyframes.front(), config_.graph);
+    }
+  };
+  if (const std::optional<Keyframe>& retired = trajectory_.retired()) {
+    ground_.retire(*retired);
+    hand_over_from(*retired);
+  }
+  const auto movable = static_cast<std::size_t>(config_.graph.movable_keyframes);
+  if (keyframes.size() > movable + 1) hand_over_from(keyframes[keyframes.size() - movable - 1]);
 }
 
 std::vector<Candidate> Slam::accepted(const objects::Detections& detections,

@@ -191,6 +191,44 @@ TEST(Slam, KeepsWithinItsCeilings) {
   EXPECT_LE(drive.slam.map().ground.size(), 5U);
 }
 
+TEST(Slam, KeyframesTooOldToMoveStayWhereTheyAre) {
+  SlamConfig config = honest_config();
+  config.graph.movable_keyframes = 10;
+  Drive drive(config, Robot(ring_of_objects(20, 10), {}, 1));
+  double seconds = 0;
+  std::vector<Keyframe> before;
+  int moved = 0;
+  for (const SE3& pose : loop(20, 1, 0.5)) {
+    (void)drive.slam.update(drive.robot.step(seconds += 0.5, pose), kPlenty);
+    const std::vector<Keyframe>& now = drive.slam.keyframes();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const bool same = before[k].T_world_lidar.matrix() == now[k].T_world_lidar.matrix();
+      EXPECT_TRUE(same || k + 10 >= now.size());
+      moved += same ? 0 : 1;
+    }
+    before = now;
+  }
+  EXPECT_GT(before.size(), 30U);
+  EXPECT_GT(moved, 30);
+}
+
+TEST(Slam, WhatWasMeasuredLongAgoStillCounts) {
+  const SlamConfig whole = honest_config();
+  SlamConfig held = whole;
+  held.graph.movable_keyframes = 10;
+  Drive a(whole, Robot(ring_of_objects(10, 5), {}, 1));
+  Drive b(held, Robot(ring_of_objects(10, 5), {}, 1));
+  a.along(loop(10, 1));
+  b.along(loop(10, 1));
+  const objects::ObjectMap map_a = a.slam.map(), map_b = b.slam.map();
+  for (std::size_t i = 0; i < a.robot.world().size(); ++i) {
+    const auto* in_a = Drive::nearest(map_a, a.truth(i));
+    const auto* in_b = Drive::nearest(map_b, a.truth(i));
+    ASSERT_TRUE(in_a != nullptr && in_b != nullptr);
+    EXPECT_LT((objects::place(in_a->model) - objects::place(in_b->model)).norm(), 0.05);
+  }
+}
+
 TEST(Slam, WrongConfigurationIsNamed) {
   SlamConfig config;
   config.keyframes.distance_m = -1;

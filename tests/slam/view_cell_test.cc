@@ -104,11 +104,14 @@ TEST(ViewCell, AnOutlierOfACellStaysOne) {
   EXPECT_NEAR(length(landmark), 4.4, 0.02);
 }
 
-TEST(ViewCell, WhatWasForgottenNoLongerSharesTheWeight) {
+TEST(ViewCell, WhatIsHandedOverStaysInItsCell) {
   Landmark landmark = measured(two_cells());
-  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.4, 0.2, 0.4, 1}));
-  forget(landmark, 2);
-  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{1, 1}));
+  const Trajectory trajectory = standing(3);
+  (void)refine(landmark, trajectory, quadratic());
+  hand_over(landmark, trajectory.keyframes()[1], trajectory.keyframes()[0], quadratic());
+  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.6, 0.4, 1}));
+  (void)refine(landmark, trajectory, quadratic());
+  EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
 }
 
 TEST(ViewCell, AFittedLengthDoesNotHideThatBothEndsWereSeen) {
