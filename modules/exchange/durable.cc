@@ -1,0 +1,42 @@
+#include "exchange/durable.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace saker::exchange {
+namespace {
+
+/// A rename is on the disk when its folder is.
+bool sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (descriptor < 0) return false;
+  const bool done = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  return done;
+}
+
+}  // namespace
+
+bool write_durably(const std::filesystem::path& file, std::string_view content) {
+  const std::string part = file.string() + ".part";
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (descriptor < 0) return false;
+  const bool written = write_at(descriptor, content, 0) && ::fsync(descriptor) == 0;
+  const bool closed = ::close(descriptor) == 0;
+  return written && closed && std::rename(part.c_str(), file.c_str()) == 0 &&
+         sync_folder(file.parent_path());
+}
+
+bool write_at(int file, std::string_view bytes, std::size_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (done <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(done));
+    offset += static_cast<std::size_t>(done);
+  }
+  return true;
+}
+
+}  // namespace saker::exchange

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace saker::exchange {
+
+/// Writes a file whole or not at all, and on the disk when it returns; false where that failed.
+[[nodiscard]] bool write_durably(const std::filesystem::path& file, std::string_view content);
+
+/// All bytes at this place of an open file; false where that failed.
+[[nodiscard]] bool write_at(int file, std::string_view bytes, std::size_t offset);
+
+}  // namespace saker::exchange

@@ -1,0 +1,139 @@
+#include "exchange/packed_history.h"
+
+#include <cmath>
+
+#include "exchange/packed_covariance.h"
+#include "exchange/packed_measurement.h"
+#include "exchange/stream.h"
+
+namespace saker::exchange {
+namespace {
+
+constexpr std::uint8_t kVersion = 1;
+constexpr int kMostClasses = 256;
+constexpr Time kMostStamp = 9'000'000'000'000'000'000;  // ns
+constexpr double kMostTurn = 4;                         // rad, of a rotation vector
+
+/// The pose that many steps after another: both ends compute it from the same whole numbers.
+SE3 moved(const SE3& T, const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation) {
+  SE3 motion = SE3::Identity();
+  motion.translation() = translation;
+  motion.linear() = core::so3_exp(rotation);
+  return T * motion;
+}
+
+/// As the other end will read it.
+SE3 pack_motion(const SE3& from, const SE3& to, ByteWriter& out) {
+  const SE3 motion = from.inverse() * to;
+  ByteWriter steps;
+  pack_steps(motion.translation(), kPlaceStep, steps);
+  pack_steps(core::so3_log(motion.rotation()), kAngleStep, steps);
+  out.raw(steps.bytes());
+  ByteReader in(steps.bytes());
+  const auto translation = unpacked_steps(kPlaceStep, kFarthest, in);
+  const auto rotation = unpacked_steps(kAngleStep, kMostTurn, in);
+  return moved(from, *translation, *rotation);
+}
+
+bool has_covariance(const Matrix6d& covariance) {
+  return covariance.allFinite() && covariance.diagonal().minCoeff() >= 0;
+}
+
+/// What an entry is read after.
+struct Before {
+  Time stamp = 0;
+  SE3 T_odom_lidar = SE3::Identity();
+};
+
+std::optional<slam::HistoryEntry> unpacked_entry(const Before& before, int classes,
+                                                 std::string_view bytes) {
+  ByteReader in(bytes);
+  slam::HistoryEntry entry;
+  const std::int64_t steps = in.signed_varint();
+  if (steps < 0 || steps > (kMostStamp - before.stamp) / kStampStep) return std::nullopt;
+  entry.stamp = before.stamp + steps * kStampStep;
+  const auto translation = unpacked_steps(kPlaceStep, kFarthest, in);
+  const auto rotation = unpacked_steps(kAngleStep, kMostTurn, in);
+  if (!translation || !rotation) return std::nullopt;
+  entry.T_odom_lidar = moved(before.T_odom_lidar, *translation, *rotation);
+  if (in.byte() != 0) entry.motion_covariance = unpacked_covariance(6, in);
+  while (in.rest() > 0) {
+    auto measurement = unpacked_measurement(entry.stamp, classes, in);
+    if (!measurement) return std::nullopt;
+    entry.measurements.push_back(std::move(*measurement));
+  }
+  if (!in.done()) return std::nullopt;
+  return entry;
+}
+
+}  // namespace
+
+HistoryPacker::HistoryPacker(const std::string& robot, std::uint32_t flight, int classes)
+    : robot_(robot), flight_(flight), classes_(classes) {}
+
+std::string HistoryPacker::header() const {
+  ByteWriter out;
+  out.byte(kVersion);
+  out.text(robot_);
+  out.varint(flight_);
+  out.varint(static_cast<std::uint64_t>(classes_));
+  return out.bytes();
+}
+
+std::string HistoryPacker::pack(const slam::HistoryEntry& entry) {
+  const Time stamp = to_step(entry.stamp);
+  const bool is_pose =
+      entry.T_odom_lidar.matrix().allFinite() &&
+      (T_odom_lidar_.inverse() * entry.T_odom_lidar).translation().cwiseAbs().maxCoeff() <
+          kFarthest;
+  if (!is_pose || stamp < stamp_ || stamp > kMostStamp) return "";
+  ByteWriter body;
+  body.signed_varint((stamp - stamp_) / kStampStep);
+  T_odom_lidar_ = pack_motion(T_odom_lidar_, entry.T_odom_lidar, body);
+  stamp_ = stamp;
+  const bool covariance = has_covariance(entry.motion_covariance);
+  body.byte(covariance ? 1 : 0);
+  if (covariance) exchange::pack(entry.motion_covariance, body);
+  for (const objects::Measurement& measurement : entry.measurements) {
+    if (packable(measurement, classes_)) {
+      exchange::pack(measurement, stamp, body);
+    } else {
+      ++left_out_;
+    }
+  }
+  ByteWriter out;
+  out.text(body.bytes());
+  return out.bytes();
+}
+
+std::string packed(const slam::History& history, int classes) {
+  HistoryPacker packer(history.robot, history.flight, classes);
+  std::string bytes = packer.header();
+  for (const slam::HistoryEntry& entry : history.entries) bytes += packer.pack(entry);
+  return bytes;
+}
+
+std::optional<UnpackedHistory> unpacked(std::string_view bytes) {
+  ByteReader in(bytes);
+  UnpackedHistory result;
+  const std::uint8_t version = in.byte();
+  result.history.robot = in.text();
+  result.history.flight = static_cast<std::uint32_t>(in.varint());
+  const std::uint64_t classes = in.varint();
+  const bool header = !in.failed() && version == kVersion && is_name(result.history.robot) &&
+                      classes > 0 && classes <= kMostClasses;
+  if (!header) return std::nullopt;
+  result.classes = static_cast<int>(classes);
+  Before before;
+  for (result.bytes = in.at(); in.rest() > 0; result.bytes = in.at()) {
+    const std::string_view body = in.text();
+    if (in.failed()) break;
+    auto entry = unpacked_entry(before, result.classes, body);
+    if (!entry) break;
+    before = {entry->stamp, entry->T_odom_lidar};
+    result.history.entries.push_back(std::move(*entry));
+  }
+  return result;
+}
+
+}  // namespace saker::exchange
