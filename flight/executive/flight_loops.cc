@@ -10,7 +10,7 @@ using autonomy::PlanningOrder;
 LoopStatus Executive::pose() {
   for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample);
   for (const PoseFix& fix : board_.pose_fixes.take_all()) {
-    body_pose_.correct(fix.stamp, fix.T_odom_lidar);
+    body_pose_.correct(fix.stamp, fix.T_odom_lidar, fix.covariance);
   }
   VehicleOdometry odometry = body_pose_.at(board_.clock.now());
   bus_.publish(to_lcm(odometry));

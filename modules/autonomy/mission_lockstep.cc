@@ -24,7 +24,8 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       plant_(plant),
       checker_(checker),
       ingestion_(config.odometry, config.standstill, sensor, lidar::mount_pose(config.mount)),
-      body_pose_(config.body_pose, lidar::mount_pose(config.mount)),
+      body_pose_(config.body_pose, config.odometry.motion.inertial,
+                 lidar::mount_pose(config.mount)),
       window_(config.detection.window_s),
       uncertainty_(uncertainty_for(config)),
       mapping_(config.detection, config.slam, config.objects, uncertainty_),
@@ -111,7 +112,7 @@ void MissionLockstep::take_scan(const IngestedScan& scan, Time now) {
     return;
   }
   heard_.odometry = registered.stamp;
-  body_pose_.correct(registered.stamp, registered.T_odom_lidar);
+  body_pose_.correct(registered.stamp, registered.T_odom_lidar, scan.covariance);
   timings_.time("checker", [&] { checker_.send(registered); });
   if (segmentation_schedule_.due(registered.stamp)) segment(scan, now);
 }

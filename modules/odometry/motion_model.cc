@@ -1,8 +1,9 @@
 #include "odometry/motion_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "odometry/rotation_track.h"
 
 namespace saker::odometry {
 namespace {
@@ -14,48 +15,66 @@ Matrix6d diagonal(double rotation_sd, double translation_sd) {
   return variance.asDiagonal();
 }
 
+/// Of the samples within the interval.
+Eigen::Vector3d mean_force(std::span<const lidar::ImuSample> imu, Time begin, Time end) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const lidar::ImuSample& sample : imu) {
+    if (sample.stamp < begin || sample.stamp > end || !sample.acceleration.allFinite()) continue;
+    sum += sample.acceleration;
+    ++count;
+  }
+  return sum / std::max(count, 1);
+}
+
+double mean_sd(const Matrix6d& covariance) {
+  return std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3);
+}
+
 }  // namespace
 
 MotionModel::MotionModel(const MotionConfig& config)
     : config_(config),
-      gyro_(config.gyro),
+      inertial_(config.inertial),
       twist_covariance_(diagonal(config.initial_rate_rps, config.initial_speed_mps)) {}
 
 void MotionModel::start(Time moment, const SE3& T_odom_lidar) {
   moment_ = registered_moment_ = moment;
   T_odom_lidar_ = T_odom_lidar;
+  inertial_.start(moment, T_odom_lidar, Matrix6d::Zero(), Eigen::Vector3d::Zero(),
+                  config_.initial_speed_mps);
+}
+
+bool MotionModel::covered(std::span<const lidar::ImuSample> imu, Time begin, Time end) const {
+  return covers(imu, begin, end, config_.inertial.max_gap_s);
 }
 
 Prediction MotionModel::predict(Time moment, std::span<const lidar::ImuSample> imu) const {
   Prediction prediction;
   prediction.moment = moment;
   prediction.seconds = std::min(to_seconds(moment - moment_), config_.max_interval_s);
-  prediction.rotation = gyro_.integrate(imu, moment_, moment);
-  SE3& T = prediction.prior.T_odom_lidar;
-  if (prediction.rotation) {
-    T.linear() = T_odom_lidar_.linear() * prediction.rotation->R_begin_end();
-    T.translation() = T_odom_lidar_.translation() + velocity_ * prediction.seconds;
-  } else {
-    T = T_odom_lidar_ * core::se3_exp(twist_ * prediction.seconds);
+  if (covered(imu, moment_, moment)) {
+    InertialFilter ahead = inertial_, from_here = inertial_;
+    ahead.propagate(imu, moment);
+    from_here.fix_pose();
+    from_here.propagate(imu, moment);
+    prediction.prior = {ahead.T_odom_lidar(), ahead.pose_covariance()};
+    prediction.motion_covariance = from_here.pose_covariance();
+    prediction.inertial = ahead;
+    return prediction;
   }
-  prediction.prior.covariance =
-      motion_covariance(prediction.seconds, prediction.rotation.has_value());
+  prediction.prior.T_odom_lidar = T_odom_lidar_ * core::se3_exp(twist_ * prediction.seconds);
+  prediction.prior.covariance = prediction.motion_covariance =
+      twist_motion_covariance(prediction.seconds);
   return prediction;
 }
 
-Matrix6d MotionModel::motion_covariance(double seconds, bool gyro_used) const {
+Matrix6d MotionModel::twist_motion_covariance(double seconds) const {
   // The twist is the mean of the last interval and is used for the next one: their middles are an
   // interval apart.
   const double square = seconds * seconds;
-  Matrix6d covariance =
-      twist_covariance_ * square +
-      diagonal(config_.angular_acceleration_rps2 * square, config_.acceleration_mps2 * square);
-  if (!gyro_used) return covariance;
-  covariance.topRightCorner<3, 3>().setZero();
-  covariance.bottomLeftCorner<3, 3>().setZero();
-  covariance.topLeftCorner<3, 3>() =
-      Eigen::Matrix3d::Identity() * std::pow(gyro_.rate_sd() * seconds, 2);
-  return covariance;
+  return twist_covariance_ * square +
+         diagonal(config_.angular_acceleration_rps2 * square, config_.acceleration_mps2 * square);
 }
 
 Vector6d MotionModel::twist_to(const SE3& T_odom_lidar, double seconds) const {
@@ -69,62 +88,75 @@ Eigen::Vector3d MotionModel::velocity_to(const SE3& T_odom_lidar, double seconds
 Sweep MotionModel::sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
                          std::span<const lidar::ImuSample> imu) const {
   if (span == 0) return {};
+  const Time begin = prediction.moment - span / 2, end = begin + span;
+  if (prediction.inertial && covered(imu, begin, end)) {
+    const InertialFilter& inertial = *prediction.inertial;
+    return Sweep::rotating(RotationTrack::integrated(imu, begin, end, inertial.rate_bias()),
+                           {T_odom_lidar.linear().transpose() * inertial.velocity_at(T_odom_lidar),
+                            inertial.acceleration(mean_force(imu, begin, end))},
+                           span);
+  }
   // A mean over an interval is the rate in its middle; the scan's moment is half an interval later.
   const double seconds = prediction.seconds;
   const double between =
       moved_over_s_ > 0 ? 0.5 * (moved_over_s_ + seconds) : std::numeric_limits<double>::infinity();
-  const Time begin = prediction.moment - span / 2;
-  if (const auto track = gyro_.integrate(imu, begin, begin + span)) {
-    const Eigen::Matrix3d R_lidar_odom = T_odom_lidar.linear().transpose();
-    const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, seconds);
-    const Eigen::Vector3d change = (velocity - velocity_) / between;
-    return Sweep::rotating(
-        *track, {R_lidar_odom * (velocity + 0.5 * seconds * change), R_lidar_odom * change}, span);
-  }
   const Vector6d twist = twist_to(T_odom_lidar, seconds);
   const Vector6d change = (twist - twist_) / between;
   return Sweep::twisting({twist + 0.5 * seconds * change, change}, span);
 }
 
-Sweep MotionModel::sweep_before(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
+Sweep MotionModel::sweep_before(const SE3& T_odom_lidar, double seconds, Time span,
                                 std::span<const lidar::ImuSample> imu) const {
   if (span == 0) return {};
-  const Time begin = moment_ - span / 2;
-  if (const auto track = gyro_.integrate(imu, begin, begin + span)) {
-    const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, prediction.seconds);
-    return Sweep::rotating(*track, {T_odom_lidar_.linear().transpose() * velocity}, span);
+  const Time begin = moment_ - span / 2, end = begin + span;
+  if (covered(imu, begin, end)) {
+    const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, seconds);
+    return Sweep::rotating(RotationTrack::integrated(imu, begin, end, inertial_.rate_bias()),
+                           {T_odom_lidar_.linear().transpose() * velocity}, span);
   }
-  return Sweep::twisting({twist_to(T_odom_lidar, prediction.seconds)}, span);
+  return Sweep::twisting({twist_to(T_odom_lidar, seconds)}, span);
 }
 
 void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
                          const Matrix6d& covariance) {
   const double seconds = prediction.seconds;
-  if (prediction.rotation) {
-    const double sd = std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3);
-    gyro_.correct(prediction.rotation->R_begin_end(),
-                  T_odom_lidar_.linear().transpose() * T_odom_lidar.linear(), seconds, sd);
-  }
   twist_ = twist_to(T_odom_lidar, seconds);
   twist_covariance_ = covariance / (seconds * seconds);
-  velocity_ = velocity_to(T_odom_lidar, seconds);
+  const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, seconds);
   moved_over_s_ = seconds;
   usual_interval_s_ += 0.1 * (seconds - usual_interval_s_);
   T_odom_lidar_ = T_odom_lidar;
   T_odom_lidar_.linear() =
       Eigen::Quaterniond(T_odom_lidar.linear()).normalized().toRotationMatrix();
   moment_ = registered_moment_ = prediction.moment;
+  if (prediction.inertial) {
+    inertial_ = *prediction.inertial;
+    inertial_.condition(T_odom_lidar_, covariance);
+  } else {
+    inertial_.start(moment_, T_odom_lidar_, covariance, velocity,
+                    mean_sd(prediction.prior.covariance) / seconds);
+  }
 }
 
 void MotionModel::coast(const Prediction& prediction) {
-  T_odom_lidar_ = prediction.prior.T_odom_lidar;
+  const SE3& T_odom_lidar = prediction.prior.T_odom_lidar;
+  const Matrix6d& covariance = prediction.prior.covariance;
+  const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, prediction.seconds);
+  T_odom_lidar_ = T_odom_lidar;
   moment_ = prediction.moment;
-  twist_covariance_ = prediction.prior.covariance / (prediction.seconds * prediction.seconds);
+  twist_covariance_ = prediction.motion_covariance / (prediction.seconds * prediction.seconds);
+  if (prediction.inertial) {
+    inertial_ = *prediction.inertial;
+  } else {
+    inertial_.start(moment_, T_odom_lidar, covariance, velocity,
+                    mean_sd(covariance) / prediction.seconds);
+  }
   if (to_seconds(moment_ - registered_moment_) <= config_.max_coast_s) return;
   twist_.setZero();
-  velocity_.setZero();
   moved_over_s_ = 0;
   twist_covariance_ = diagonal(config_.initial_rate_rps, config_.initial_speed_mps);
+  inertial_.start(moment_, T_odom_lidar, covariance, Eigen::Vector3d::Zero(),
+                  config_.initial_speed_mps);
 }
 
 }  // namespace saker::odometry

@@ -6,7 +6,7 @@
 #include "core/config.h"
 #include "core/se3.h"
 #include "lidar/scan.h"
-#include "odometry/gyro.h"
+#include "odometry/inertial_filter.h"
 #include "odometry/registration.h"
 #include "odometry/sweep.h"
 
@@ -19,7 +19,7 @@ struct MotionConfig {
   double angular_acceleration_rps2 = 5;
   double max_coast_s = 1;
   double max_interval_s = 2;
-  GyroConfig gyro;
+  InertialConfig inertial;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -28,30 +28,31 @@ struct MotionConfig {
     v.field("initial_rate_rps", initial_rate_rps, {0.01, 20}, "rad/s",
             "sd of the turn rate before the first two scans");
     v.field("acceleration_mps2", acceleration_mps2, {0.01, 200}, "m/s²",
-            "sd of the acceleration between scans: a multirotor's");
+            "sd of the acceleration between scans, where no IMU measures it: a multirotor's");
     v.field("angular_acceleration_rps2", angular_acceleration_rps2, {0.01, 500}, "rad/s²",
-            "sd of the turn's, where no gyroscope measures it");
+            "the same of the turn");
     v.field("max_coast_s", max_coast_s, {0, 60}, "s",
             "after so long without a registration it is taken to stand still");
     v.field("max_interval_s", max_interval_s, {0.05, 60}, "s",
             "a longer gap between scans is predicted as if it were this long");
-    v.group("gyro", gyro, "the IMU's gyroscope");
+    v.group("inertial", inertial, "the inertial unit");
   }
 };
 
 /// Where the lidar is expected at a moment.
 struct Prediction {
   Time moment = 0;
-  double seconds = 0;                     ///< since the last scan's moment
-  PosePrior prior;                        ///< its covariance is that of the motion since then
-  std::optional<RotationTrack> rotation;  ///< since then, when the gyroscope covers it
+  double seconds = 0;  ///< since the last scan's moment
+  PosePrior prior;
+  Matrix6d motion_covariance = Matrix6d::Constant(NAN);  ///< of the motion since then alone
+  std::optional<InertialFilter> inertial;                ///< there, when the IMU covers the motion
 };
 
-/// The lidar's motion from scan to scan, at a moment in each: predicted by a constant twist, or
-/// with an IMU by the gyroscope's rotation and a constant velocity in `odom`. Within a scan the
-/// twist (the velocity) changes as fast as it did over the last two intervals. The covariance of
-/// the twist grows with every scan that could not be registered, and in directions that
-/// registration leaves open.
+/// The lidar's motion from scan to scan, at a moment in each: by the inertial unit, its velocity
+/// and biases learnt from the poses that registration found, or where there is none by a constant
+/// twist, that within a scan changes as fast as it did over the last two intervals. The covariance
+/// grows with time, with every scan that could not be registered, and in directions that
+/// registration leaves open: there the inertial unit decides.
 class MotionModel {
  public:
   explicit MotionModel(const MotionConfig& config);
@@ -65,8 +66,8 @@ class MotionModel {
   [[nodiscard]] Sweep sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
                             std::span<const lidar::ImuSample> imu) const;
 
-  /// The same of the scan before, taken to have moved as from it to `T_odom_lidar`.
-  [[nodiscard]] Sweep sweep_before(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
+  /// The same of the scan before, taken to have moved as from it to `T_odom_lidar` in `seconds`.
+  [[nodiscard]] Sweep sweep_before(const SE3& T_odom_lidar, double seconds, Time span,
                                    std::span<const lidar::ImuSample> imu) const;
 
   void accept(const Prediction& prediction, const SE3& T_odom_lidar, const Matrix6d& covariance);
@@ -75,23 +76,22 @@ class MotionModel {
   [[nodiscard]] Time moment() const { return moment_; }
   [[nodiscard]] const SE3& T_odom_lidar() const { return T_odom_lidar_; }
   [[nodiscard]] double usual_interval_s() const { return usual_interval_s_; }
-  [[nodiscard]] const Gyro& gyro() const { return gyro_; }
+  [[nodiscard]] const InertialFilter& inertial() const { return inertial_; }
 
  private:
-  [[nodiscard]] Matrix6d motion_covariance(double seconds, bool gyro_used) const;
+  [[nodiscard]] Matrix6d twist_motion_covariance(double seconds) const;
+  [[nodiscard]] bool covered(std::span<const lidar::ImuSample> imu, Time begin, Time end) const;
   [[nodiscard]] Vector6d twist_to(const SE3& T_odom_lidar, double seconds) const;
   [[nodiscard]] Eigen::Vector3d velocity_to(const SE3& T_odom_lidar, double seconds) const;
 
   MotionConfig config_;
-  Gyro gyro_;
+  InertialFilter inertial_;  // at moment_
   Time moment_ = 0;
   Time registered_moment_ = 0;
   double usual_interval_s_ = 0.1;
   SE3 T_odom_lidar_ = SE3::Identity();
-  double moved_over_s_ =
-      0;  // the interval over which twist and velocity were measured; 0: they were not
-  Vector6d twist_ = Vector6d::Zero();                   // a second, in the lidar frame
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // in `odom`
+  double moved_over_s_ = 0;            // over which the twist was measured; 0: it was not
+  Vector6d twist_ = Vector6d::Zero();  // a second, in the lidar frame
   Matrix6d twist_covariance_;
 };
 

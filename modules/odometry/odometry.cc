@@ -19,11 +19,13 @@ std::int32_t offset_of(const lidar::Scan& scan, std::size_t i) {
 }
 
 /// What stays of a pose's error when the next scan is registered. The posterior P = P I P splits
-/// into what the prior and what the map brought in; the prior hangs on the last pose, so its part
-/// adds up from scan to scan; the map's part is fresh noise, of which a share goes into the map.
-Matrix6d drift(const Matrix6d& posterior, const Matrix6d& prior, double share) {
-  const Matrix6d of_prior = posterior * prior.ldlt().solve(posterior);
-  const Matrix6d sum = share * posterior + (1 - share) * of_prior;
+/// into what the prior and what the map brought in; the prior hangs on the last pose, so what the
+/// motion since then added to it adds up from scan to scan; the map's part is fresh noise, of which
+/// a share goes into the map.
+Matrix6d drift(const Matrix6d& posterior, const Prediction& prediction, double share) {
+  const Matrix6d of_prior = prediction.prior.covariance.ldlt().solve(posterior).transpose();
+  const Matrix6d of_motion = of_prior * prediction.motion_covariance * of_prior.transpose();
+  const Matrix6d sum = share * posterior + (1 - share) * of_motion;
   return 0.5 * (sum + sum.transpose());
 }
 
@@ -89,8 +91,7 @@ OdometryEstimate Odometry::start(const lidar::Scan& scan) {
   motion_.start(moment_of(scan), T_odom_stamp_);
   const Time span = Sweep::span_of(scan);
   // The lidar is taken to stand where it is; a gyroscope knows how it turned.
-  const Prediction still{.moment = moment_of(scan), .seconds = 1, .prior = {}, .rotation = {}};
-  const Sweep sweep = motion_.sweep_before(still, T_odom_stamp_, span, imu_.samples());
+  const Sweep sweep = motion_.sweep_before(T_odom_stamp_, 1, span, imu_.samples());
   motion_.start(moment_of(scan), T_odom_stamp_ * sweep.T_reference_stamp().inverse());
   started_ = true;
   keep_first(scan);
@@ -159,9 +160,8 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
   OdometryEstimate estimate;
   estimate.stamp = scan.stamp;
   estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
-  estimate.covariance =
-      fits ? drift(fit.registration.covariance, prediction.prior.covariance, config_.drift_share)
-           : fit.registration.covariance;
+  estimate.covariance = fits ? drift(fit.registration.covariance, prediction, config_.drift_share)
+                             : prediction.motion_covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
   estimate.points = fit.sweep.referred_to_stamp().deskewed(scan);
@@ -171,7 +171,7 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
                           .rms_m = fit.registration.rms_m,
                           .gate_m = fit.gate_m,
                           .map_voxels = static_cast<int>(map_.size()),
-                          .gyro_used = prediction.rotation.has_value()};
+                          .imu_used = prediction.inertial.has_value()};
   return estimate;
 }
 
@@ -210,7 +210,8 @@ void Odometry::refine_first(const lidar::Scan& scan) {
 }
 
 void Odometry::redo_first(const Prediction& prediction, const SE3& T_odom_lidar) {
-  const Sweep sweep = motion_.sweep_before(prediction, T_odom_lidar, first_.span, imu_.samples());
+  const Sweep sweep =
+      motion_.sweep_before(T_odom_lidar, prediction.seconds, first_.span, imu_.samples());
   const SE3 T_odom_first = first_.T_odom_stamp * sweep.T_reference_stamp().inverse();
   motion_.start(motion_.moment(), T_odom_first);
   scratch_.clear();

@@ -77,7 +77,7 @@ struct OdometryDiagnostics {
   double rms_m = 0;   ///< of the inliers' distances to their planes
   double gate_m = 0;  ///< at which they were sought
   int map_voxels = 0;
-  bool gyro_used = false;
+  bool imu_used = false;
 };
 
 struct OdometryEstimate {
@@ -99,13 +99,12 @@ struct OdometryEstimate {
 ///
 /// Frames: `odom` is the first scan's lidar frame at its stamp, turned level by the mean specific
 /// force where there is an IMU (yaw 0). Covariances: tangent [rotation, translation], right.
-/// Method: predict (constant twist; with an IMU the gyroscope's rotation and a constant velocity),
-/// deskew by that motion, point-to-plane ICP to a voxel map of Gaussians with robust weights and
-/// the prediction as prior, deskew and register once more with the motion found, add the scan to
-/// the map. Sources: gate and two thinnings, Vizzo et al., "KISS-ICP" (RA-L 2023), sec. III; planes
-/// of voxels, Yuan et al., "VoxelMap" (RA-L 2022), sec. III; deskewing by the motion between two
-/// scans, Dellenbach et al., "CT-ICP" (ICRA 2022). Cost: README.md. One thread; after the first
-/// scans only the estimate's points are allocated.
+/// Method: predict (by the IMU, else a constant twist), deskew by that motion, point-to-plane ICP
+/// to a voxel map of Gaussians with robust weights and the prediction as prior, deskew and register
+/// once more with the motion found, add the scan to the map. Sources: gate and two thinnings, Vizzo
+/// et al., "KISS-ICP" (RA-L 2023), sec. III; planes of voxels, Yuan et al., "VoxelMap" (RA-L 2022),
+/// sec. III; deskewing by the motion between two scans, Dellenbach et al., "CT-ICP" (ICRA 2022).
+/// Cost: README.md. One thread; after the first scans only the estimate's points are allocated.
 class Odometry {
  public:
   explicit Odometry(const OdometryConfig& config);  ///< throws Error on an invalid value

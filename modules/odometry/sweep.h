@@ -5,7 +5,7 @@
 
 #include "core/se3.h"
 #include "lidar/scan.h"
-#include "odometry/gyro.h"
+#include "odometry/rotation_track.h"
 
 namespace saker::odometry {
 

@@ -55,13 +55,15 @@ TEST(Fault, ACheckerThatBeganAgainWithNothingIsFlownByAgain) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
-TEST(Fault, InAGapOfScansItStopsOrLands) {
+TEST(Fault, InALongGapOfScansItStopsAndThenFliesOn) {
   FaultyFlight flight;
   ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::blind; }, kGap_s,
                                    [&] { flight.plant.link = RecordedPlant::Link::up; }));
   flight.go_on(kLongEnough_s);
   EXPECT_LE(flight.settled_after(), kSettled_s);
   EXPECT_LE(flight.said_after(Cause::lidar_silent), kSettled_s);
+  EXPECT_TRUE(flight.flies_fast_again(kFliesAgain_s));
+  EXPECT_EQ(flight.faults() & (kNoOdometry | kOdometryRejected), 0U);
   EXPECT_EQ(flight.collisions(), 0);
 }
 

@@ -12,6 +12,8 @@ constexpr double kTakeoff_s = 8;  // nothing is fast before
 constexpr double kSlice_s = 2;    // of a run: each ends with the covariance of the map
 constexpr double kMost_s = 40;    // until the fault
 constexpr double kAtRest_mps = 0.2;
+constexpr Time kRevolution = kNanosecondsPerSecond / 10;
+constexpr Time kIntoRevolution = kNanosecondsPerSecond / 50;
 
 simulation::MissionConfig scenario(std::vector<simulation::ScenarioEvent> events) {
   simulation::MissionConfig config;
@@ -141,6 +143,16 @@ bool FaultyFlight::fly_fast_into(const std::function<void()>& fault, double last
     return truth.velocity.head<2>().norm() > kFast;
   };
   return fly_into(fast, fault, lasts_s, over);
+}
+
+bool FaultyFlight::fly_into_gap_of_scans(double speed_mps, double lasts_s) {
+  const auto when = [speed_mps](const simulation::VehicleTruth& truth) {
+    return truth.velocity.head<2>().norm() > speed_mps &&
+           truth.stamp % kRevolution == kIntoRevolution;
+  };
+  return fly_into(
+      when, [this] { plant.link = RecordedPlant::Link::blind; }, lasts_s,
+      [this] { plant.link = RecordedPlant::Link::up; });
 }
 
 bool FaultyFlight::fly_into_event() {

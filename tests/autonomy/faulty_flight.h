@@ -75,6 +75,9 @@ class FaultyFlight {
   /// The same with a fault that is over after so many seconds.
   bool fly_fast_into(const std::function<void()>& fault, double lasts_s,
                      const std::function<void()>& over);
+  /// No scans for so long, as soon as it flies so fast, from 20 ms into a revolution on: the scan
+  /// before the gap is a few milliseconds long, which is the hardest to make a velocity of.
+  bool fly_into_gap_of_scans(double speed_mps, double lasts_s);
   /// The fault is the scenario's event; false when it never begins.
   bool fly_into_event();
   /// The fault comes so long after it left the ground.

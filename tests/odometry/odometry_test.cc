@@ -68,7 +68,7 @@ TEST(Odometry, WeavingFlightWithImuAndGyroBiasStaysWithinCentimetres) {
   const Flight flight =
       fly(testing::street(), sensor, testing::weaving, 200, true, {0.01, -0.02, 0.015});
   EXPECT_EQ(flight.not_ok, 0);
-  EXPECT_TRUE(flight.estimates.back().diagnostics.gyro_used);
+  EXPECT_TRUE(flight.estimates.back().diagnostics.imu_used);
   EXPECT_LT(flight.worst_position_m, 0.1);
   EXPECT_LT(flight.worst_rotation_rad, 0.005);
 }

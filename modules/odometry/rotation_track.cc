@@ -1,4 +1,4 @@
-#include "odometry/gyro.h"
+#include "odometry/rotation_track.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,34 +56,21 @@ class RateReader {
 
 }  // namespace
 
-Gyro::Gyro(const GyroConfig& config)
-    : config_(config), bias_variance_(config.initial_bias_rps * config.initial_bias_rps) {}
-
-std::optional<RotationTrack> Gyro::integrate(std::span<const lidar::ImuSample> imu, Time begin,
-                                             Time end) const {
-  if (!RateReader(imu).covers(begin, end, from_seconds(config_.max_gap_s))) return std::nullopt;
+RotationTrack RotationTrack::integrated(std::span<const lidar::ImuSample> imu, Time begin, Time end,
+                                        const Eigen::Vector3d& bias) {
   RotationTrack track;
   track.R_begin_knot[0].setIdentity();
   RateReader reader(imu);
-  const double step = static_cast<double>(end - begin) / RotationTrack::kSteps;  // ns
-  for (int k = 0; k < RotationTrack::kSteps; ++k) {
-    const Eigen::Vector3d rate = reader.at(begin + static_cast<Time>((k + 0.5) * step)) - bias_;
+  const double step = static_cast<double>(end - begin) / kSteps;  // ns
+  for (int k = 0; k < kSteps; ++k) {
+    const Eigen::Vector3d rate = reader.at(begin + static_cast<Time>((k + 0.5) * step)) - bias;
     track.R_begin_knot[k + 1] = track.R_begin_knot[k] * core::so3_exp(rate * step * 1e-9);
   }
   return track;
 }
 
-void Gyro::correct(const Eigen::Matrix3d& integrated, const Eigen::Matrix3d& measured,
-                   double seconds, double sd_rad) {
-  const double rate_sd = std::hypot(sd_rad / seconds, config_.rate_sd_rps);
-  bias_variance_ += config_.bias_walk_rps * config_.bias_walk_rps * seconds;
-  const double gain = bias_variance_ / (bias_variance_ + rate_sd * rate_sd);
-  bias_ -= gain * core::so3_log(integrated.transpose() * measured) / seconds;
-  bias_variance_ *= 1 - gain;
-}
-
-double Gyro::rate_sd() const {
-  return std::sqrt(bias_variance_ + config_.rate_sd_rps * config_.rate_sd_rps);
+bool covers(std::span<const lidar::ImuSample> imu, Time begin, Time end, double gap_s) {
+  return RateReader(imu).covers(begin, end, from_seconds(gap_s));
 }
 
 Eigen::Matrix3d level(std::span<const lidar::ImuSample> imu) {
