@@ -21,7 +21,7 @@ namespace {
 constexpr int kLidarBytesPerSecond = 640 * 12608;
 constexpr int kLidarNeed = kLidarBytesPerSecond / 4;
 constexpr rlim_t kLockedNeed = rlim_t{1} << 30;  // the executive with its network's weights: 0.4 GB
-constexpr rlim_t kPriorityNeed = 20;
+constexpr rlim_t kPriorityNeed = 70;             // the executive's safety loop, its highest
 constexpr double kMostDrift_ppm = 100;  // of a healthy crystal; a scan's tenth of a second: 10 ns
 constexpr Time kWakeUpPeriod = 5'000'000;
 constexpr int kWakeUps = 40;

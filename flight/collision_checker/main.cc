@@ -9,6 +9,7 @@
 #include "core/config_io.h"
 #include "core/error.h"
 #include "process/process.h"
+#include "process/service.h"
 #include "saker/output.h"
 
 namespace saker::flight {
@@ -20,6 +21,8 @@ constexpr int kPriority = 30;  // above the executive's ingestion, below all tha
 
 /// One thread: waits for messages until something is due, works, says.
 void serve(Bus& bus, Presence& presence, CheckerProcess& checker) {
+  Service service;
+  service.ready();
   Steady::time_point next_announcement = Steady::now();
   while (stop_requests() == 0) {
     const auto until = std::min(checker.next_due(), next_announcement);
@@ -27,10 +30,12 @@ void serve(Bus& bus, Presence& presence, CheckerProcess& checker) {
     if (bus.handle(std::max(wait, std::chrono::milliseconds{0})) < 0)
       throw Error("the LCM network is gone");
     checker.step(Steady::now());
+    service.alive(Steady::now());
     if (Steady::now() < next_announcement) continue;
     presence.announce();
     next_announcement = Steady::now() + Presence::kPeriod;
   }
+  service.stopping();
 }
 
 /// What the report of the flight says of this process.

@@ -97,7 +97,7 @@ void Executive::make_loops() {
 }
 
 /// The mission's time is the sensor's: without it nothing begins.
-bool Executive::wait_for_sensor() {
+bool Executive::wait_for_sensor(Service& service) {
   const auto deadline = std::chrono::steady_clock::now() +
                         std::chrono::duration<double>(config_.autonomy.mission.preflight_s);
   while (board_.clock.now() == 0) {
@@ -108,36 +108,56 @@ bool Executive::wait_for_sensor() {
       return false;
     }
     std::this_thread::sleep_for(kLook);
+    feed_watchdog(service);
   }
   return true;
 }
 
-bool Executive::run() {
-  if (const std::string fault = lock_memory(); !fault.empty()) {
-    spdlog::warn("memory is not locked: {}", fault);
+/// Who holds the watchdog restarts the whole process: loops that do not all run are no executive.
+void Executive::feed_watchdog(Service& service) {
+  const auto now = std::chrono::steady_clock::now();
+  for (const auto& loop : loops_) {
+    if (!loop->hangs(now)) continue;
+    if (loop->name() != hanging_) spdlog::critical("{} hangs: the watchdog starves", loop->name());
+    hanging_ = loop->name();
+    return;
   }
-  const auto begin = std::chrono::steady_clock::now();
-  const double begin_cpu_s = process_seconds();
+  service.alive(now);
+}
+
+bool Executive::start_loops(Service& service) {
   for (auto& loop : loops_) {
     const bool flies = loop->name() == "safety" || loop->name() == "guidance" ||
                        loop->name() == "planning" || loop->name() == "pose";
-    if (flies && board_.clock.now() == 0 && !wait_for_sensor()) return false;
+    if (flies && board_.clock.now() == 0 && !wait_for_sensor(service)) return false;
     loop->start();
     if (!loop->priority_granted()) {
       spdlog::warn("{}: no real-time priority (limit rtprio); it may be late", loop->name());
     }
   }
+  return true;
+}
+
+bool Executive::run(Service& service, const FlightMark& mark) {
+  if (const std::string fault = lock_memory(); !fault.empty()) {
+    spdlog::warn("memory is not locked: {}", fault);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const double begin_cpu_s = process_seconds();
+  if (!start_loops(service)) return false;
   for (int look = 1; !board_.mission_done && stop_requests() < 2; ++look) {
     std::this_thread::sleep_for(kLook);
     if (stop_requests() > 0) board_.land_ordered = true;
-    say_events();
+    feed_watchdog(service);
+    say_events(mark);
     if (look % kLooksPerHealth == 0) say_health();
-    if (look % (kLooksPerHealth * kHealthsPerProgress) == 0) say_progress();
+    if (look % (kLooksPerHealth * kHealthsPerProgress) == 0) say_progress(service);
   }
+  service.stopping();
   stop();
-  say_events();
+  say_events(mark);
   say_health();
-  say_progress();
+  say_progress(service);
   ran_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   ran_cpu_s_ = process_seconds() - begin_cpu_s;
   say_totals();

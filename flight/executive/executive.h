@@ -15,6 +15,7 @@
 #include "executive/loop.h"
 #include "lidar/udp_receiver.h"
 #include "process/configuration.h"
+#include "process/service.h"
 
 /// The autonomy executive: the stages of `modules/autonomy` under real time, one thread a loop.
 ///
@@ -36,9 +37,10 @@ class Executive {
   Executive(const ProcessConfig& config, const ExecutiveInput& input, Bus& bus, Presence& presence);
   ~Executive();
 
-  /// Until the mission is done. The first stop request lands, the second one ends at once.
+  /// Until the mission is done. The first stop request lands, the second one ends at once. Feeds
+  /// the watchdog of `service` while no loop hangs, and sets `mark` before it arms.
   /// \return whether the mission succeeded
-  [[nodiscard]] bool run();
+  [[nodiscard]] bool run(Service& service, const FlightMark& mark);
 
   /// Map, trajectories and timings, as `saker replay` leaves them. After `run`.
   void save(const std::filesystem::path& out);
@@ -46,7 +48,9 @@ class Executive {
  private:
   void make_loops();
   void subscribe();
-  [[nodiscard]] bool wait_for_sensor();
+  [[nodiscard]] bool start_loops(Service& service);
+  [[nodiscard]] bool wait_for_sensor(Service& service);
+  void feed_watchdog(Service& service);
   void stop();
 
   LoopStatus io();
@@ -68,9 +72,9 @@ class Executive {
   void publish_mission(const autonomy::MissionEvent* event);
   void publish_plan(const autonomy::Planning::Output& output);
   void publish_map(const autonomy::MapSnapshot& map);
-  void say_events();
+  void say_events(const FlightMark& mark);
   void say_health();
-  void say_progress();
+  void say_progress(const Service& service);
   void say_totals() const;
   void save_loops(const std::filesystem::path& file) const;
   [[nodiscard]] const autonomy::PlanningReport& tour_report();
@@ -113,6 +117,7 @@ class Executive {
   int anchors_ = 0;
   std::chrono::steady_clock::time_point announced_;
 
+  std::string hanging_;  // the loop that was said to hang
   Time took_off_ = 0;
   autonomy::MissionEvent last_event_;
   autonomy::PlanningReport tour_report_;

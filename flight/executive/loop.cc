@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -12,6 +13,9 @@ namespace saker::flight {
 namespace {
 
 using Steady = std::chrono::steady_clock;
+
+constexpr int kMostSilentPeriods = 10;  // as many runs that a busy machine may swallow
+constexpr Steady::duration kLeastSilence = std::chrono::seconds(1);
 
 /// steady_clock is CLOCK_MONOTONIC.
 void sleep_until(Steady::time_point time) {
@@ -36,6 +40,7 @@ Loop::Loop(std::string name, double rate_hz, int priority, Body body)
 Loop::~Loop() { stop(); }
 
 void Loop::start() {
+  ended_ = Steady::now();
   thread_ = std::thread([this] { work(); });
   pthread_setname_np(thread_.native_handle(), name_.substr(0, 15).c_str());
   if (priority_ == 0) return;
@@ -49,6 +54,11 @@ void Loop::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
+bool Loop::hangs(Steady::time_point now) const {
+  return thread_.joinable() &&
+         now - ended_.load() > std::max(kLeastSilence, kMostSilentPeriods * period_);
+}
+
 void Loop::work() {
   Steady::time_point next = reported_ = Steady::now();
   while (!stopping_) {
@@ -59,6 +69,7 @@ void Loop::work() {
       const LoopMeter::Run run(meter_);
       status = body_();
     }
+    ended_ = Steady::now();
     report(status);
     next += period_;
     const Steady::duration behind = Steady::now() - next;

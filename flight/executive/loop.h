@@ -23,6 +23,7 @@ struct LoopStatus {
 class Loop {
  public:
   using Body = std::function<LoopStatus()>;
+  using Steady = std::chrono::steady_clock;
 
   /// \param priority  of SCHED_FIFO, 1 … 99; 0: an ordinary thread
   Loop(std::string name, double rate_hz, int priority, Body body);
@@ -38,12 +39,13 @@ class Loop {
   [[nodiscard]] std::shared_ptr<const loop_health_t> health() const { return health_.latest(); }
   /// Since the start; to be called when it has stopped.
   [[nodiscard]] const LoopMeter::Totals& totals() const { return meter_.totals(); }
+  /// Whether no run ended for ten periods, and for a second at least. To be called by who starts
+  /// it.
+  [[nodiscard]] bool hangs(Steady::time_point now) const;
   /// Whether its priority was granted; true where it asked for none.
   [[nodiscard]] bool priority_granted() const { return granted_; }
 
  private:
-  using Steady = std::chrono::steady_clock;
-
   void work();
   void report(const LoopStatus& status);
 
@@ -54,6 +56,7 @@ class Loop {
   LoopMeter meter_;
   Mailbox<loop_health_t> health_;
   Steady::time_point reported_;
+  std::atomic<Steady::time_point> ended_ = Steady::time_point{};  // the last run
   std::atomic<bool> stopping_ = false;
   std::atomic<bool> granted_ = true;
   std::thread thread_;

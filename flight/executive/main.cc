@@ -6,6 +6,7 @@
 #include "lidar/metadata.h"
 #include "objects/map_io.h"
 #include "process/process.h"
+#include "process/service.h"
 #include "saker/output.h"
 
 namespace saker::flight {
@@ -21,6 +22,7 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
   ExecutiveInput input{lidar::read_metadata(flight.metadata), {}};
   if (!flight.prior.empty()) input.prior = objects::read_map(flight.prior, config.autonomy.objects);
+  const FlightMark mark;
   require_fit(check_machine(
       {.bus = config.bus, .lidar_ports = {input.sensor.lidar_port, input.sensor.imu_port}}));
   Bus bus(config.bus, options.robot);
@@ -29,7 +31,9 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   Executive executive(config, input, bus, presence);
   const tools::OutputFolder out(flight.output);
   spdlog::info("flies as {}", options.robot);
-  const bool succeeded = executive.run();
+  Service service;
+  service.ready();
+  const bool succeeded = executive.run(service, mark);
   executive.save(out.path());
   return succeeded ? 0 : 1;
 }

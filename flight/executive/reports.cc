@@ -70,8 +70,10 @@ void Executive::publish_plan(const autonomy::Planning::Output& output) {
   bus_.publish(message);
 }
 
-void Executive::say_events() {
+void Executive::say_events(const FlightMark& mark) {
   for (const autonomy::MissionEvent& event : board_.events.take_all()) {
+    if (event.to == autonomy::MissionPhase::arming && !mark.set())
+      spdlog::warn("the flight cannot be marked: a restart would not know of it");
     if (event.cause == autonomy::Cause::armed) took_off_ = event.stamp;
     spdlog::info("{} → {}: {}: {}", to_string(event.from), to_string(event.to),
                  to_string(event.cause), event.text);
@@ -103,7 +105,7 @@ void Executive::say_health() {
   bus_.publish(message);
 }
 
-void Executive::say_progress() {
+void Executive::say_progress(const Service& service) {
   std::string loops;
   double cpu = 0;
   for (const auto& loop : loops_) {
@@ -114,9 +116,11 @@ void Executive::say_progress() {
     if (health->misses > 0) loops += fmt::format(" ({} late)", health->misses);
   }
   const autonomy::PlanningReport& report = tour_report();
-  spdlog::info("{}, target {} of {}, {:.2f} CPU;{}", to_string(last_event_.to),
-               std::min(report.visited + report.unreachable + 1, report.targets), report.targets,
-               cpu, loops);
+  const std::string status = fmt::format(
+      "{}, target {} of {}, {:.2f} CPU", to_string(last_event_.to),
+      std::min(report.visited + report.unreachable + 1, report.targets), report.targets, cpu);
+  service.say(status);
+  spdlog::info("{};{}", status, loops);
 }
 
 void Executive::say_totals() const {

@@ -1,11 +1,14 @@
 #include "process/process.h"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <csignal>
 #include <iostream>
+
+#include "process/service.h"
 
 namespace saker::flight {
 namespace {
@@ -22,16 +25,38 @@ void ready_signals() {
   sigaction(SIGINT, &action, nullptr);
 }
 
+/// The level of a line in front of it, for the journal (sd-daemon(3)); trace, debug … critical.
+class JournalPriority : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& line) override {
+    constexpr std::string_view kPriorities[] = {"<7>", "<7>", "<6>", "<4>", "<3>", "<2>", "<2>"};
+    const std::string_view priority = kPriorities[message.level];
+    line.append(priority.data(), priority.data() + priority.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<JournalPriority>();
+  }
+};
+
+/// The journal knows time, name and level of a line by itself.
+void set_form(spdlog::logger& logger) {
+  if (!to_journal()) return logger.set_pattern("%H:%M:%S.%e %n %^%l%$ %v");
+  auto form = std::make_unique<spdlog::pattern_formatter>();
+  form->add_flag<JournalPriority>('*').set_pattern("%*%v");
+  logger.set_formatter(std::move(form));
+}
+
 void ready_log(const std::string& name, bool verbose) {
   auto logger = std::make_shared<spdlog::logger>(
       name, std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
-  logger->set_pattern("%H:%M:%S.%e %n %^%l%$ %v");
+  set_form(*logger);
   spdlog::set_default_logger(std::move(logger));
 }
 
 int refuse(const std::string& name, const std::string& what) {
-  std::cerr << name << ": " << what << std::endl;
+  std::cerr << journal_error() << name << ": " << what << std::endl;
   return kInvalid;
 }
 

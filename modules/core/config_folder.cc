@@ -15,7 +15,10 @@ std::vector<fs::path> config_folders() {
   if (const char* given = std::getenv("SAKER_CONFIG_DIR")) folders.emplace_back(given);
   std::error_code failed;
   const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) folders.push_back(program.parent_path() / "../../../configs");
+  if (!failed) {
+    folders.push_back(program.parent_path() / "../../../configs");
+    folders.push_back(program.parent_path() / "../share/saker");
+  }
   folders.emplace_back(SAKER_CONFIG_DIR);
   return folders;
 }

@@ -46,6 +46,32 @@ TEST(ExecutiveLoop, CountsALateRunAndDoesNotMakeUpForIt) {
   EXPECT_GE(loop.totals().worst_lateness_ms, 250);
 }
 
+TEST(ExecutiveLoop, HangsWhenNoRunEndsForASecondAndTenPeriods) {
+  std::atomic<bool> held = false;
+  Loop loop("test", 50, 0, [&] {
+    while (held) std::this_thread::sleep_for(milliseconds(1));
+    return LoopStatus{};
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(loop.hangs(begin + std::chrono::hours(1)));  // not started
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(200));
+  held = true;
+  std::this_thread::sleep_for(milliseconds(100));
+  EXPECT_FALSE(loop.hangs(begin + milliseconds(1100)));
+  EXPECT_TRUE(loop.hangs(begin + milliseconds(1400)));
+  held = false;
+}
+
+TEST(ExecutiveLoop, ASlowLoopMayTakeLonger) {
+  Loop loop("test", 1, 0, [] { return LoopStatus{}; });
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(100));
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_FALSE(loop.hangs(now + std::chrono::seconds(9)));
+  EXPECT_TRUE(loop.hangs(now + std::chrono::seconds(11)));
+}
+
 TEST(ExecutiveLoop, StopsWithoutHavingStarted) {
   Loop loop("test", 1, 0, [] { return LoopStatus{}; });
   loop.stop();
