@@ -56,7 +56,7 @@ int drain(lcm::LCM& network) {
 }
 
 const std::string& checked_name(const std::string& robot) {
-  static const std::regex kName("[A-Z][A-Z0-9]{0,15}");
+  static const std::regex kName(kAnyRobot);
   if (std::regex_match(robot, kName)) return robot;
   throw Error("robot " + robot + ", expected up to 16 capitals and digits, as in R1");
 }
@@ -74,36 +74,71 @@ Bus::Bus(std::unique_ptr<lcm::LCM> control, std::unique_ptr<lcm::LCM> bulk,
          const std::string& robot)
     : robot_(checked_name(robot)), control_(std::move(control)), bulk_(std::move(bulk)) {}
 
+Bus Bus::on_network(const std::string& url, int receive_buffer_kb, const std::string& robot) {
+  return Bus(opened(url, receive_buffer_kb), nullptr, robot);
+}
+
 Bus Bus::in_memory(const std::string& robot) {
   return Bus(std::make_unique<lcm::LCM>("memq://"), nullptr, robot);
 }
 
-void Bus::subscribe(Network network, std::unique_ptr<Subscription> subscription) {
+void Bus::subscribe(Network network, const std::string& channel, Decode decode) {
+  auto subscription = std::make_unique<Subscription>();
+  subscription->channel = channel;
+  subscription->decode = std::move(decode);
   lcm::Subscription* const handle =
-      on(network).subscribeFunction(subscription->channel, &Bus::on_message, subscription.get());
+      on(network).subscribeFunction(channel, &Bus::on_message, subscription.get());
   handle->setQueueCapacity(kQueueCapacity);
   subscriptions_.push_back(std::move(subscription));
 }
 
-void Bus::on_message(const lcm::ReceiveBuffer* bytes, const std::string&,
+void Bus::subscribe_raw(const std::string& suffix, RawHandler handler) {
+  subscribe(Network::control, kAnyRobot + suffix,
+            [handler = std::move(handler)](const lcm::ReceiveBuffer& bytes,
+                                           const std::string& channel, bool& refused) {
+              const auto* data = static_cast<const std::uint8_t*>(bytes.data);
+              refused = !handler(channel, {data, bytes.data_size});
+              return true;
+            });
+}
+
+bool Bus::publish_raw(const std::string& channel, Bytes bytes) {
+  return on(Network::control)
+             .publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) == 0;
+}
+
+void Bus::on_message(const lcm::ReceiveBuffer* bytes, const std::string& channel,
                      Subscription* subscription) {
   bool refused = false;
   bool whole = false;
   try {
-    whole = subscription->decode(*bytes, refused);
+    whole = subscription->decode(*bytes, channel, refused);
   } catch (const std::exception&) {  // memory that cannot be had must not end the process
   }
   ++(whole ? subscription->received : subscription->malformed);
   if (refused) ++subscription->refused;
 }
 
-int Bus::handle(std::chrono::milliseconds timeout) {
-  pollfd ready[2] = {{control_->getFileno(), POLLIN, 0},
-                     {bulk_ ? bulk_->getFileno() : -1, POLLIN, 0}};
-  if (::poll(ready, 2, static_cast<int>(std::max<std::int64_t>(0, timeout.count()))) <= 0) return 0;
-  const int control = drain(*control_);
-  const int bulk = bulk_ ? drain(*bulk_) : 0;
-  return control < 0 || bulk < 0 ? -1 : control + bulk;
+int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout) {
+  std::vector<lcm::LCM*> networks;
+  std::vector<pollfd> ready;
+  for (Bus* const bus : buses) {
+    for (lcm::LCM* const network : {bus ? bus->control_.get() : nullptr,  //
+                                    bus ? bus->bulk_.get() : nullptr}) {
+      if (network == nullptr) continue;
+      networks.push_back(network);
+      ready.push_back({network->getFileno(), POLLIN, 0});
+    }
+  }
+  const auto wait = static_cast<int>(std::max<std::int64_t>(0, timeout.count()));
+  if (::poll(ready.data(), ready.size(), wait) <= 0) return 0;
+  int handled = 0;
+  for (lcm::LCM* const network : networks) {
+    const int count = drain(*network);
+    if (count < 0) return -1;
+    handled += count;
+  }
+  return handled;
 }
 
 std::vector<Bus::Counters> Bus::counters() const {

@@ -3,8 +3,10 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <initializer_list>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +43,12 @@ class Bus {
   /// What a handler is given is not what it expects when it returns false.
   template <class Message>
   using Handler = std::function<bool(const Message&)>;
+  /// The same for the messages of every robot.
+  template <class Message>
+  using HandlerOfAll = std::function<bool(const std::string& robot, const Message&)>;
+  /// Of whatever is on a channel.
+  using Bytes = std::span<const std::uint8_t>;
+  using RawHandler = std::function<bool(const std::string& channel, Bytes bytes)>;
 
   struct Counters {
     std::string channel;
@@ -53,36 +61,59 @@ class Bus {
   /// multicast route (it names the command that mends it) or no large enough receive buffer.
   Bus(const BusConfig& config, const std::string& robot);
 
+  /// One network alone: what belongs to the bulk network goes there too. Throws as the constructor.
+  [[nodiscard]] static Bus on_network(const std::string& url, int receive_buffer_kb,
+                                      const std::string& robot);
+
   /// The twin without a network, for tests of logic: hears what it publishes itself.
   [[nodiscard]] static Bus in_memory(const std::string& robot);
 
   template <class Message>
   void subscribe(Handler<Message> handler);
+  template <class Message>
+  void subscribe_all(HandlerOfAll<Message> handler);
+  /// Bytes as they are: of every robot's channel that ends in `suffix` ("_STATE"), on control.
+  void subscribe_raw(const std::string& suffix, RawHandler handler);
 
   /// False when the network does not take it. Blocks no longer than the kernel's copy.
   template <class Message>
-  bool publish(const Message& message);
+  bool publish(const Message& message) {
+    return publish_as(robot_, message);
+  }
+  /// On the channel of another robot.
+  template <class Message>
+  bool publish_as(const std::string& robot, const Message& message);
+  bool publish_raw(const std::string& channel, Bytes bytes);
 
   /// Waits up to `timeout` for the first message, then handles all that is there; how many. A
   /// negative number: the network is gone.
-  int handle(std::chrono::milliseconds timeout);
+  int handle(std::chrono::milliseconds timeout) { return handle({this}, timeout); }
+  /// The same for several at once, of which null ones are none.
+  static int handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout);
 
   [[nodiscard]] const std::string& robot() const { return robot_; }
   /// One entry a subscription. To be called by any thread.
   [[nodiscard]] std::vector<Counters> counters() const;
 
  private:
+  using Decode =
+      std::function<bool(const lcm::ReceiveBuffer&, const std::string& channel, bool& refused)>;
+
   struct Subscription {
     std::string channel;
-    std::function<bool(const lcm::ReceiveBuffer&, bool& refused)> decode;
+    Decode decode;
     std::atomic<long> received = 0, malformed = 0, refused = 0;
   };
 
   Bus(std::unique_ptr<lcm::LCM> control, std::unique_ptr<lcm::LCM> bulk, const std::string& robot);
 
+  template <class Message>
+  static bool decoded(const lcm::ReceiveBuffer& bytes, Message& message) {
+    return message.decode(bytes.data, 0, static_cast<int>(bytes.data_size)) >= 0;
+  }
   static void on_message(const lcm::ReceiveBuffer* bytes, const std::string& channel,
                          Subscription* subscription);
-  void subscribe(Network network, std::unique_ptr<Subscription> subscription);
+  void subscribe(Network network, const std::string& channel, Decode decode);
   [[nodiscard]] lcm::LCM& on(Network network) {
     return network == Network::control || !bulk_ ? *control_ : *bulk_;
   }
@@ -94,21 +125,31 @@ class Bus {
 
 template <class Message>
 void Bus::subscribe(Handler<Message> handler) {
-  auto subscription = std::make_unique<Subscription>();
-  subscription->channel = channel_name<Message>(robot_);
-  subscription->decode = [handler = std::move(handler)](const lcm::ReceiveBuffer& bytes,
-                                                        bool& refused) {
-    Message message{};
-    if (message.decode(bytes.data, 0, static_cast<int>(bytes.data_size)) < 0) return false;
-    refused = !handler(message);
-    return true;
-  };
-  subscribe(kChannel<Message>.network, std::move(subscription));
+  subscribe(kChannel<Message>.network, channel_name<Message>(robot_),
+            [handler = std::move(handler)](const lcm::ReceiveBuffer& bytes, const std::string&,
+                                           bool& refused) {
+              Message message{};
+              if (!decoded(bytes, message)) return false;
+              refused = !handler(message);
+              return true;
+            });
 }
 
 template <class Message>
-bool Bus::publish(const Message& message) {
-  return on(kChannel<Message>.network).publish(channel_name<Message>(robot_), &message) == 0;
+void Bus::subscribe_all(HandlerOfAll<Message> handler) {
+  subscribe(kChannel<Message>.network, kAnyRobot + channel_name<Message>(""),
+            [handler = std::move(handler)](const lcm::ReceiveBuffer& bytes,
+                                           const std::string& channel, bool& refused) {
+              Message message{};
+              if (!decoded(bytes, message)) return false;
+              refused = !handler(robot_of(channel), message);
+              return true;
+            });
+}
+
+template <class Message>
+bool Bus::publish_as(const std::string& robot, const Message& message) {
+  return on(kChannel<Message>.network).publish(channel_name<Message>(robot), &message) == 0;
 }
 
 }  // namespace saker::flight

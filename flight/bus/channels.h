@@ -66,6 +66,14 @@ inline constexpr Channel kChannel<exchange_t> = {"_EXCHANGE", Network::control};
 template <>
 inline constexpr Channel kChannel<presence_t> = {"_PRESENCE", Network::control};
 
+/// A robot's name, as a regular expression.
+inline const std::string kAnyRobot = "[A-Z][A-Z0-9]{0,15}";
+
+/// "R1_COMMAND_ACK" → "R1".
+[[nodiscard]] inline std::string robot_of(const std::string& channel) {
+  return channel.substr(0, channel.find('_'));
+}
+
 /// "R1", "_STATE" → "R1_STATE".
 template <class Message>
 [[nodiscard]] std::string channel_name(const std::string& robot) {

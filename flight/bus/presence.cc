@@ -27,16 +27,23 @@ std::int64_t new_instance() {
 
 }  // namespace
 
-Presence::Presence(Bus& bus, const std::string& role)
+Presence::Presence(Bus& bus, const std::string& role, Among among)
     : bus_(bus), role_(role), instance_(new_instance()) {
-  bus.subscribe<presence_t>(
-      [other = other_, role = role_, instance = instance_](const presence_t& message) {
-        if (message.role != role || message.instance == instance) return true;
-        const std::lock_guard lock(other->mutex);
-        other->heard = true;
-        other->last = message;
-        return true;
-      });
+  const auto hear = [other = other_, role = role_, instance = instance_](
+                        const std::string& robot, const presence_t& message) {
+    if (message.role != role || message.instance == instance) return true;
+    const std::lock_guard lock(other->mutex);
+    other->heard = true;
+    other->robot = robot;
+    other->last = message;
+    return true;
+  };
+  if (among == Among::whole_network) {
+    bus.subscribe_all<presence_t>(hear);
+  } else {
+    bus.subscribe<presence_t>(
+        [hear, robot = bus.robot()](const presence_t& message) { return hear(robot, message); });
+  }
 }
 
 void Presence::claim(std::chrono::milliseconds listen) {
@@ -55,9 +62,7 @@ void Presence::listen_until(steady_clock::time_point until) {
   for (auto now = steady_clock::now(); now < until; now = steady_clock::now()) {
     if (bus_.handle(std::chrono::ceil<std::chrono::milliseconds>(until - now)) < 0)
       throw Error("the LCM network is gone");
-    if (!must_give_way()) continue;
-    throw Error("a second " + role_ + " of robot " + bus_.robot() + " is on the network (process " +
-                std::to_string(other_->last.pid) + ")");
+    if (must_give_way()) throw Error(other());
   }
 }
 
@@ -66,6 +71,17 @@ void Presence::announce() { bus_.publish(own()); }
 bool Presence::contested() const {
   const std::lock_guard lock(other_->mutex);
   return running_ && other_->heard && other_->last.running;
+}
+
+bool Presence::outranked() const {
+  const std::lock_guard lock(other_->mutex);
+  return running_ && other_->heard && other_->last.running && other_->last.instance < instance_;
+}
+
+std::string Presence::other() const {
+  const std::lock_guard lock(other_->mutex);
+  return "a second " + role_ + " of robot " + other_->robot + " is on the network (process " +
+         std::to_string(other_->last.pid) + ")";
 }
 
 presence_t Presence::own() const {

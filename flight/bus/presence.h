@@ -20,8 +20,14 @@ class Presence {
   static constexpr std::chrono::milliseconds kListen{1500};  ///< three announcements of another
   static constexpr std::chrono::milliseconds kPeriod{500};
 
+  /// Whose names count.
+  enum class Among {
+    same_robot,
+    whole_network,  ///< one of this role is enough for all robots
+  };
+
   /// \param role  the program: "saker-flight". Subscribes to `bus`, which has to outlive this.
-  Presence(Bus& bus, const std::string& role);
+  Presence(Bus& bus, const std::string& role, Among among = Among::same_robot);
 
   /// Handles the bus for `listen`. Throws Error when another one is there: "a second saker-flight
   /// of robot R1 is on the network (process 123)".
@@ -33,10 +39,18 @@ class Presence {
   /// Somebody of the same role was heard after `claim`: a network that came together in flight.
   [[nodiscard]] bool contested() const;
 
+  /// After `claim`, of two that run: whether it is this one that has to end. The lower instance
+  /// number goes on.
+  [[nodiscard]] bool outranked() const;
+
+  /// Who the other one is: "a second saker-base of robot BASE is on the network (process 123)".
+  [[nodiscard]] std::string other() const;
+
  private:
   struct Other {
     std::mutex mutex;
     bool heard = false;
+    std::string robot;
     presence_t last{};
   };
 

@@ -65,7 +65,7 @@ int refuse(const std::string& name, const std::string& what) {
 int stop_requests() { return requests; }
 
 int run_program(const Program& program, int argc, const char* const* argv) {
-  ProcessOptions options;
+  ProcessOptions options{.robot = program.robot, .config_file = {}, .settings = {}};
   CLI::App app(program.does, program.name);
   app.add_option("--robot", options.robot, "name of the robot, first part of its channels")
       ->type_name("NAME")
@@ -77,7 +77,7 @@ int run_program(const Program& program, int argc, const char* const* argv) {
       ->allow_extra_args(false);
   app.add_flag("-v,--verbose", options.verbose, "log debug lines too");
   program.add_options(app);
-  app.footer("Example: " + program.name + " --robot R1");
+  app.footer("Example: " + program.name + " --robot " + program.robot);
   try {
     app.parse(argc, argv);
     ready_signals();

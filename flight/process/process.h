@@ -16,8 +16,9 @@ struct ProcessOptions {
 };
 
 struct Program {
-  std::string name;  ///< saker-flight, …
-  std::string does;  ///< one line, for --help
+  std::string name;          ///< saker-flight, …
+  std::string does;          ///< one line, for --help
+  std::string robot = "R1";  ///< its name where --robot does not say it
   /// Options of its own.
   std::function<void(CLI::App&)> add_options = [](CLI::App&) {};
   /// Runs until `stop_requests`; its result is the exit status.

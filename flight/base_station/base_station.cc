@@ -1,0 +1,149 @@
+#include "base_station/base_station.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base_station/sealed.h"
+#include "bus/messages.h"
+
+namespace saker::flight {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kStepPeriod{20};    // of the exchange, as exchange.h asks for
+constexpr milliseconds kLookPeriod{5000};  // at contacts: each costs the disk a write
+constexpr milliseconds kHealthPeriod{1000};
+
+Time nanoseconds(BaseStation::Steady::time_point time) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
+
+counter_t counter(const std::string& name, long value) {
+  counter_t message{};
+  message.name = name;
+  message.value = value;
+  return message;
+}
+
+std::string_view bytes_of(const exchange_t& message) {
+  return {reinterpret_cast<const char*>(message.data.data()), message.data.size()};
+}
+
+}  // namespace
+
+BaseStation::BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& robots,
+                         Bus* ground)
+    : config_(core::checked(config.base, "base")),
+      store_(store),
+      robots_(robots),
+      ground_(ground),
+      exchange_(config.exchange.link, robots.robot(), exchange::read_key(config.exchange.key_file),
+                config_.folder, store) {
+  robots_.subscribe_all<exchange_t>(
+      [this](const std::string& robot, const exchange_t& message) { return hear(robot, message); });
+  if (ground_ == nullptr) return;
+  relay_.emplace(config_.relay, robots_, *ground_,
+                 [this](const std::string& channel, Bus::Bytes sealed) {
+                   return opened_order(exchange_.opener(), channel, sealed, system_utime(),
+                                       config_.relay.most_age_s);
+                 });
+}
+
+bool BaseStation::hear(const std::string& robot, const exchange_t& message) {
+  const std::string channel = channel_name<exchange_t>(robot);
+  if (!visits_.contains(channel)) return admit(channel, message);
+  const exchange::Verdict verdict =
+      exchange_.receive(nanoseconds(Steady::now()), channel, bytes_of(message));
+  return verdict == exchange::Verdict::genuine || verdict == exchange::Verdict::own;
+}
+
+/// A robot's first message is its ticket: only what the team's key sealed makes a link. Its content
+/// is lost; a robot calls again.
+bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
+  const exchange::Opened first = exchange_.opener().open(channel, bytes_of(message));
+  if (first.verdict != exchange::Verdict::genuine || first.sender != robot_of(channel))
+    return false;
+  if (visits_.size() >= static_cast<std::size_t>(config_.most_robots)) {
+    ++crowded_;
+    return false;
+  }
+  exchange_.add_link(channel, exchange::Role::answers);
+  visits_[channel] = {};
+  return true;
+}
+
+void BaseStation::step(Steady::time_point now) {
+  const LoopMeter::Run run(meter_);
+  if (relay_) relay_->step(now);
+  if (now >= next_step_) {
+    next_step_ = now + kStepPeriod;
+    send(nanoseconds(now));
+  }
+  if (now >= next_look_) {
+    next_look_ = now + kLookPeriod;
+    look_at_contacts(nanoseconds(now));
+  }
+  if (now >= next_health_) {
+    next_health_ = now + kHealthPeriod;
+    say_health();
+  }
+}
+
+BaseStation::Steady::time_point BaseStation::next_due() const {
+  const auto due = std::min(next_step_, next_health_);
+  return relay_ ? std::min(due, relay_->next_due()) : due;
+}
+
+void BaseStation::send(Time now) {
+  while (const auto datagram = exchange_.next(now)) {
+    exchange_t message{};
+    message.utime = system_utime();
+    message.data.assign(datagram->bytes.begin(), datagram->bytes.end());
+    message.num_data = static_cast<std::int32_t>(message.data.size());
+    not_sent_ += !robots_.publish_as(robot_of(datagram->channel), message);
+  }
+}
+
+void BaseStation::look_at_contacts(Time now) {
+  for (const exchange::Exchange::Contact& contact : exchange_.contacts(now)) {
+    Visit& visit = visits_[contact.channel];
+    const std::string robot = robot_of(contact.channel);
+    if (contact.in_contact != visit.in_contact)
+      spdlog::info("{} is {}", robot, contact.in_contact ? "in contact" : "out of contact");
+    if (contact.in_contact && contact.all_sent && !visit.all_sent)
+      spdlog::info("{} has all that is here", robot);
+    if (contact.heard && *contact.heard > visit.heard) store_.note_contact(robot, system_utime());
+    visit = {contact.in_contact, contact.all_sent, contact.heard.value_or(0)};
+  }
+}
+
+void BaseStation::say_health() {
+  health_t health{};
+  health.utime = system_utime();
+  health.process = "saker-base";
+  health.loops = {meter_.take_period(kHealthPeriod, std::nan(""), not_sent_)};
+  health.num_loops = static_cast<std::int32_t>(health.loops.size());
+  for (const auto& [name, value] : exchange::health(exchange_))
+    health.counters.push_back(counter(name, value));
+  health.counters.push_back(counter("store_bytes", store_.file_bytes()));
+  health.counters.push_back(counter("store_full", store_.full()));
+  health.counters.push_back(counter("robots_refused", crowded_));
+  if (relay_) {
+    const Relay::Counters& relayed = relay_->counters();
+    health.counters.push_back(counter("up_bytes", relayed.up.bytes));
+    health.counters.push_back(counter("down_bytes", relayed.down.bytes));
+    health.counters.push_back(counter("relay_replaced", relayed.replaced));
+    health.counters.push_back(counter("relay_not_ours", relayed.not_ours));
+    health.counters.push_back(counter("relay_echoes", relayed.echoes));
+    health.counters.push_back(
+        counter("relay_dropped", relayed.oversized + relayed.crowded + relayed.not_sent));
+  }
+  health.num_counters = static_cast<std::int32_t>(health.counters.size());
+  not_sent_ += !robots_.publish(health);
+  if (ground_ != nullptr) (void)ground_->publish(health);
+}
+
+}  // namespace saker::flight

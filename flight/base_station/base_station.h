@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base_station/relay.h"
+#include "base_station/store.h"
+#include "bus/bus.h"
+#include "exchange/exchange.h"
+#include "process/configuration.h"
+#include "process/loop_meter.h"
+
+namespace saker::flight {
+
+/// The base station on its networks: exchanges histories with every robot that has the team's key,
+/// keeps them, relays, says `_HEALTH` at 1 Hz on both networks.
+///
+/// One thread: handlers pass what comes to exchange and relay, `step` sends what is due.
+class BaseStation {
+ public:
+  using Steady = std::chrono::steady_clock;
+
+  /// Subscribes to the networks, which have to outlive this as `store` does.
+  /// \param ground  null: nothing is relayed
+  /// Throws Error on an invalid value.
+  BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& robots, Bus* ground);
+
+  void step(Steady::time_point now);
+
+  /// Until when there is nothing to do, unless something is heard.
+  [[nodiscard]] Steady::time_point next_due() const;
+
+ private:
+  /// A robot as it was last looked at.
+  struct Visit {
+    bool in_contact = false;
+    bool all_sent = false;
+    Time heard = 0;
+  };
+
+  bool hear(const std::string& robot, const exchange_t& message);
+  [[nodiscard]] bool admit(const std::string& channel, const exchange_t& message);
+  void send(Time now);
+  void look_at_contacts(Time now);
+  void say_health();
+
+  BaseConfig config_;
+  DatabaseStore& store_;
+  Bus& robots_;
+  Bus* ground_;
+  exchange::Exchange exchange_;
+  std::optional<Relay> relay_;
+  std::map<std::string, Visit> visits_;  // by channel
+  long not_sent_ = 0, crowded_ = 0;
+  LoopMeter meter_{"base"};
+  Steady::time_point next_step_{}, next_look_{}, next_health_{};
+};
+
+}  // namespace saker::flight

@@ -1,0 +1,183 @@
+#include "base_station/base_station.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include "base_station/sealed.h"
+
+namespace saker::flight {
+namespace {
+
+using std::chrono::milliseconds;
+using Steady = BaseStation::Steady;
+
+const exchange::StreamId kFlight{"R1", exchange::StreamKind::history, 1};
+
+/// A base on networks without sockets, and robots on the same.
+class ABaseStation : public testing::Test {
+ protected:
+  /// A robot's end of the exchange, under a name, on a channel.
+  struct Robot {
+    Robot(ABaseStation& test, const std::string& name, const std::string& channel_of)
+        : bus(test.robots),
+          channel(channel_of + "_EXCHANGE"),
+          link({}, name, test.key, test.folder / name, store) {
+      link.add_link(channel, exchange::Role::calls);
+      bus.subscribe_all<exchange_t>([this](const std::string& robot, const exchange_t& message) {
+        if (robot + "_EXCHANGE" != channel) return false;
+        const std::string bytes(message.data.begin(), message.data.end());
+        return link.receive(now(), channel, bytes) == exchange::Verdict::genuine;
+      });
+    }
+
+    void send() {
+      while (const auto datagram = link.next(now())) {
+        exchange_t message{};
+        message.data.assign(datagram->bytes.begin(), datagram->bytes.end());
+        message.num_data = static_cast<std::int32_t>(message.data.size());
+        bus.publish_as(robot_of(datagram->channel), message);
+      }
+    }
+
+    static Time now() { return Steady::now().time_since_epoch().count(); }
+
+    Bus& bus;
+    std::string channel;
+    exchange::MemoryStore store;
+    exchange::Exchange link;
+  };
+
+  void SetUp() override {
+    std::string form = (std::filesystem::temp_directory_path() / "saker_base_XXXXXX").string();
+    ASSERT_NE(mkdtemp(form.data()), nullptr);
+    folder = form;
+    config.exchange.key_file = (folder / "team.key").string();
+    exchange::make_key_file(config.exchange.key_file);
+    key = exchange::read_key(config.exchange.key_file);
+    config.base.folder = (folder / "base").string();
+    std::filesystem::create_directory(config.base.folder);
+    config.base.most_robots = 2;
+    store.emplace(store_file(config.base), 100);
+    base.emplace(config, *store, robots, &ground);
+    for (Bus* const bus : {&robots, &ground}) {
+      bus->subscribe<health_t>([this, bus](const health_t& message) {
+        health[bus] = message;
+        return true;
+      });
+    }
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  /// Until `done`, at most a few seconds.
+  template <class Done>
+  bool run(std::initializer_list<Robot*> with, const Done& done) {
+    for (const auto end = Steady::now() + milliseconds(8000); Steady::now() < end && !done();) {
+      for (Robot* const robot : with) robot->send();
+      Bus::handle({&robots, &ground}, milliseconds(5));
+      base->step(Steady::now());
+    }
+    return done();
+  }
+  void run_for(milliseconds time, std::initializer_list<Robot*> with) {
+    const auto end = Steady::now() + time;
+    run(with, [end] { return Steady::now() >= end; });
+  }
+
+  [[nodiscard]] long counted(const std::string& name) const {
+    if (!health.contains(&robots)) return 0;
+    for (const counter_t& counter : health.at(&robots).counters)
+      if (counter.name == name) return counter.value;
+    ADD_FAILURE() << "no counter " << name;
+    return -1;
+  }
+
+  std::filesystem::path folder;
+  ProcessConfig config;
+  exchange::Key key{};
+  std::optional<DatabaseStore> store;
+  Bus robots = Bus::in_memory("BASE"), ground = Bus::in_memory("BASE");
+  std::optional<BaseStation> base;
+  std::map<const Bus*, health_t> health;
+};
+
+TEST_F(ABaseStation, TakesARobotInAndKeepsWhatItSays) {
+  Robot robot(*this, "R1", "R1");
+  const std::string bytes(5000, 'a');
+  ASSERT_TRUE(robot.store.append(kFlight, bytes));
+  EXPECT_TRUE(run({&robot}, [&] { return store->size(kFlight) == bytes.size(); }));
+  EXPECT_TRUE(store->bytes(kFlight) == bytes);
+}
+
+TEST_F(ABaseStation, HandsOneRobotsHistoryToAnother) {
+  ASSERT_TRUE(store->append(kFlight, std::string(5000, 'a')));
+  Robot robot(*this, "R2", "R2");
+  EXPECT_TRUE(run({&robot}, [&] { return robot.store.size(kFlight) == 5000; }));
+  EXPECT_TRUE(robot.store.bytes(kFlight) == std::string(5000, 'a'));
+}
+
+TEST_F(ABaseStation, ARobotDoesNotSpeakOnTheChannelOfAnother) {
+  Robot robot(*this, "R2", "R1");
+  ASSERT_TRUE(robot.store.append(kFlight, std::string(5000, 'a')));
+  run_for(milliseconds(2500), {&robot});
+  EXPECT_EQ(store->size(kFlight), 0u);
+}
+
+TEST_F(ABaseStation, WhatIsNotSealedTakesNobodysPlace) {
+  for (int i = 0; i < 100; ++i) {
+    exchange_t message{};
+    message.data.assign(100, static_cast<std::uint8_t>(i));
+    message.num_data = 100;
+    robots.publish_as(fmt::format("X{}", i), message);
+    Bus::handle({&robots}, milliseconds(0));
+  }
+  Robot first(*this, "R1", "R1"), second(*this, "R2", "R2");
+  ASSERT_TRUE(second.store.append({"R2", exchange::StreamKind::history, 1}, "abc"));
+  EXPECT_TRUE(run({&first, &second}, [&] {
+    return store->size({"R2", exchange::StreamKind::history, 1}) == 3;
+  }));
+}
+
+TEST_F(ABaseStation, MoreRobotsThanTheCeilingAreRefusedAndCounted) {
+  Robot first(*this, "R1", "R1"), second(*this, "R2", "R2"), third(*this, "R3", "R3");
+  run_for(milliseconds(1500), {&first, &second});
+  ASSERT_TRUE(third.store.append({"R3", exchange::StreamKind::history, 1}, "abc"));
+  EXPECT_TRUE(run({&first, &second, &third}, [&] { return counted("robots_refused") > 0; }));
+  EXPECT_TRUE(store->extents().empty());
+}
+
+TEST_F(ABaseStation, SaysHealthOnBothNetworksWithinTheMessagesLimits) {
+  Robot robot(*this, "R1", "R1");
+  ASSERT_TRUE(robot.store.append(kFlight, std::string(5000, 'a')));
+  EXPECT_TRUE(run({&robot}, [&] { return counted("exchange_sent_bytes") > 0; }));
+  ASSERT_EQ(health.size(), 2u);
+  for (const auto& [bus, message] : health) {
+    EXPECT_EQ(message.process, "saker-base");
+    EXPECT_LE(message.num_counters, health_t::MAX_COUNTERS);
+    for (const counter_t& counter : message.counters)
+      EXPECT_LE(counter.name.size(), static_cast<std::size_t>(counter_t::MAX_NAME));
+  }
+  EXPECT_GT(counted("store_bytes"), 0);
+  EXPECT_EQ(counted("store_full"), 0);
+}
+
+TEST_F(ABaseStation, ASealedOrderGoesDownAndAnUnsealedOneIsCounted) {
+  std::vector<std::uint8_t> heard;
+  robots.subscribe_raw("_COMMAND", [&](const std::string&, Bus::Bytes bytes) {
+    heard.assign(bytes.begin(), bytes.end());
+    return true;
+  });
+  exchange::Sealer sealer(key, "GROUND", folder / "counter");
+  const std::vector<std::uint8_t> order = {1, 2, 3};
+  const auto sealed = sealed_order(sealer, "R1_COMMAND", system_utime(), order);
+  ground.publish_raw("R1_COMMAND", std::vector<std::uint8_t>(sealed->begin(), sealed->end()));
+  ground.publish_raw("R1_COMMAND", order);
+  EXPECT_TRUE(run({}, [&] { return counted("relay_not_ours") == 1; }));
+  EXPECT_EQ(heard, order);
+}
+
+}  // namespace
+}  // namespace saker::flight
