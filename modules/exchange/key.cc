@@ -49,8 +49,9 @@ Key read_key(const std::filesystem::path& file) {
   const bool whole = end == digits.data() + digits.size() && size == key.size();
   sodium_memzero(digits.data(), digits.size());
   if (!read || !whole) {
-    throw Error(fmt::format("{}: not a key, expected {} hexadecimal digits (saker key new FILE)",
-                            file.string(), 2 * key.size()));
+    throw Error(
+        fmt::format("{}: not a key, expected {} hexadecimal digits (saker base key -o FILE)",
+                    file.string(), 2 * key.size()));
   }
   return key;
 }

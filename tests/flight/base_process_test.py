@@ -1,6 +1,5 @@
 """saker-base loses nothing: killed at any moment, on a lossy network, on a full disk."""
 
-import pathlib
 import subprocess
 import time
 import unittest
@@ -101,10 +100,10 @@ class FullDisk(NamespaceTest):
         time.sleep(5)
         self.assertIsNone(base.poll(), self.log("base"))
         self.assertEqual(self.log("base").count("refuses chunks"), 1, self.log("base"))
-        subprocess.run(["nsenter", "-t", str(base.pid), "--mount", "rm", disk / "filler"], check=True)
+        inside = ["nsenter", "-t", str(base.pid), "--mount"]
+        subprocess.run([*inside, "rm", disk / "filler"], check=True)
         self.wait(lambda: "takes chunks again" in self.log("base"), 30, "room")
-        inside = pathlib.Path(f"/proc/{base.pid}/root{disk}/base.db")
-        status = [BIN / "saker", "base", "status", "--store", inside]
+        status = [*inside, BIN / "saker", "base", "status", "--store", disk / "base.db"]
         self.wait(lambda: f" {2 * HISTORY} " in subprocess.run(status, capture_output=True, text=True).stdout, 60,
                   "whole history")
         self.stop(robot)
