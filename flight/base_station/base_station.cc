@@ -120,6 +120,14 @@ void BaseStation::look_at_contacts(Time now) {
   }
 }
 
+void BaseStation::say_totals() const {
+  const exchange::Exchange::Counters exchanged = exchange_.counters();
+  const Relay::Counters relayed = relay_ ? relay_->counters() : Relay::Counters{};
+  spdlog::info("exchange: sent {} bytes, received {}; relay: {} messages up, {} down",
+               exchanged.sent_bytes, exchanged.received_bytes, relayed.up.messages,
+               relayed.down.messages);
+}
+
 void BaseStation::say_health() {
   health_t health{};
   health.utime = system_utime();

@@ -29,6 +29,9 @@ class BaseStation {
 
   void step(Steady::time_point now);
 
+  /// What was sent and relayed since the start, in one line of the log.
+  void say_totals() const;
+
   /// Until when there is nothing to do, unless something is heard.
   [[nodiscard]] Steady::time_point next_due() const;
 

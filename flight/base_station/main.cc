@@ -105,6 +105,7 @@ int run(const ProcessOptions& options) {
   spdlog::info("listens as {}, holds {} streams, {}", options.robot, store.extents().size(),
                ground ? "relays to " + ground_url : "relays nothing");
   serve(base, robots, ground);
+  base.say_totals();
   spdlog::info("ends as asked");
   return 0;
 }

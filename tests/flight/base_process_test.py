@@ -1,5 +1,7 @@
 """saker-base loses nothing: killed at any moment, on a lossy network, on a full disk."""
 
+import pathlib
+import re
 import subprocess
 import time
 import unittest
@@ -23,6 +25,18 @@ class Exchange(NamespaceTest):
         self.assertEqual(self.stop(robot), 0)
         self.assertEqual(self.stop(base), 0)
         self.assertEqual(self.stored()["R1", 1], self.held_by("R1")["R1_history_1"])
+
+    def test_at_30_percent_loss_both_ends_send_at_most_1_8_times_the_history(self):
+        base = self.start_base()
+        robot = self.start_robot("R1", HISTORY, loss=0.3)
+        self.wait(lambda: self.stored_bytes("R1") == HISTORY, 60, "whole history")
+        time.sleep(1)
+        self.stop(robot)
+        self.stop(base)
+        by_base = int(re.search(r"sent (\d+) bytes", self.log("base")).group(1))
+        by_robot = int((self.folder / "R1" / "sent").read_text())
+        print(f"{by_robot} + {by_base} bytes sent for {HISTORY}: {(by_robot + by_base) / HISTORY:.2f}")
+        self.assertLessEqual(by_robot + by_base, 1.8 * HISTORY)
 
     def test_robots_killed_in_a_transfer_hand_over_the_same_bytes(self):
         base = self.start_base()
@@ -111,9 +125,9 @@ class FullDisk(NamespaceTest):
 
 
 class Start(NamespaceTest):
-    def refusal(self, *settings, folder=None):
-        run = subprocess.run([str(word) for word in self.base_command(*settings, folder=folder)], capture_output=True,
-                             text=True, timeout=30)
+    def refusal(self, *settings, before=(), after=()):
+        command = [*before, *self.base_command(*settings), *after]
+        run = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=30)
         self.assertEqual(run.returncode, 2, run.stderr)
         lines = run.stderr.splitlines()
         self.assertEqual(len(lines), 1, run.stderr)
@@ -130,6 +144,21 @@ class Start(NamespaceTest):
             self.assertRegex(run.stderr, r"^saker-base: a second saker-base of robot BASE is on the network "
                                          rf"\(process {first.pid}\)\n$")
         self.assertIsNone(first.poll())
+
+    def test_what_keeps_every_process_from_starting_is_refused(self):
+        namespace = (pathlib.Path(__file__).parent / "in_namespace.sh", "--without-route")
+        self.assertIn("ip route add 239.255.76.67/32 dev lo", self.refusal(before=namespace))
+        self.assertIn("sysctl -w net.core.rmem_max=1073741824", self.refusal("bus.receive_buffer_kb=1048576"))
+        self.assertIn("as in R1", self.refusal(after=("--robot", "my robot")))
+        self.assertIn("most_robots", self.refusal("base.most_robot=3"))
+        self.assertIn("/nowhere.yaml", self.refusal(after=("--config", "/nowhere.yaml")))
+
+    def test_a_folder_that_another_base_uses_is_refused(self):
+        """On a network of its own, so that presence does not tell."""
+        self.start_base()
+        self.wait(lambda: "listens as BASE" in self.log("base"), 20, "first base")
+        elsewhere = (pathlib.Path(__file__).parent / "in_namespace.sh",)
+        self.assertIn("is used by another saker-base", self.refusal(before=elsewhere))
 
     def test_without_a_key_it_is_refused(self):
         self.key.unlink()

@@ -53,6 +53,45 @@ TEST(BusInMemory, CarriesBulkChannelsToo) {
   EXPECT_EQ(chunks, 1);
 }
 
+TEST(BusInMemory, HandsOverTheMessagesOfEveryRobotWithItsName) {
+  Bus bus = Bus::in_memory("BASE");
+  std::vector<std::string> heard;
+  bus.subscribe_all<verdict_t>([&](const std::string& robot, const verdict_t& message) {
+    heard.push_back(robot + std::to_string(message.trajectory_id));
+    return true;
+  });
+  bus.publish_as("R1", verdict(1));
+  bus.publish_as("DRONE7", verdict(2));
+  bus.publish_as("r1", verdict(3));  // no name of a robot
+  bus.publish_as("R1_X", verdict(4));
+  bus.handle(milliseconds(100));
+  EXPECT_EQ(heard, (std::vector<std::string>{"R11", "DRONE72"}));
+}
+
+TEST(BusInMemory, HandsOverBytesAsTheyAre) {
+  Bus bus = Bus::in_memory("BASE");
+  std::vector<std::uint8_t> heard;
+  bus.subscribe_raw("_ANYTHING", [&](const std::string& channel, Bus::Bytes bytes) {
+    heard.assign(bytes.begin(), bytes.end());
+    return channel == "R1_ANYTHING";
+  });
+  const std::vector<std::uint8_t> said = {0, 255, 0, 1};
+  EXPECT_TRUE(bus.publish_raw("R1_ANYTHING", said));
+  bus.handle(milliseconds(100));
+  EXPECT_EQ(heard, said);
+}
+
+TEST(BusInMemory, SeveralAreHandledAtOnce) {
+  Bus first = Bus::in_memory("R1"), second = Bus::in_memory("R1");
+  int heard = 0;
+  for (Bus* const bus : {&first, &second})
+    bus->subscribe<verdict_t>([&](const verdict_t&) { return ++heard > 0; });
+  first.publish(verdict(1));
+  second.publish(verdict(2));
+  EXPECT_EQ(Bus::handle({&first, nullptr, &second}, milliseconds(100)), 2);
+  EXPECT_EQ(heard, 2);
+}
+
 TEST(BusInMemory, CountsWhatAHandlerRefuses) {
   Bus bus = Bus::in_memory("R1");
   bus.subscribe<verdict_t>([](const verdict_t& message) { return message.trajectory_id > 0; });

@@ -194,6 +194,33 @@ TEST_F(WithRoute, OfTwoThatStartTogetherExactlyOneGoesOn) {
   EXPECT_NE(first.empty(), second.empty()) << first << second;
 }
 
+TEST_F(WithRoute, WhereOneIsEnoughForAllRobotsASecondOfAnotherNameGivesWay) {
+  const Running first("BASE", "saker-base");
+  Bus bus(BusConfig{}, "BASE2");
+  Presence presence(bus, "saker-base", Presence::Among::whole_network);
+  const std::string line = message_of([&] { presence.claim(milliseconds(400)); });
+  EXPECT_EQ(line.rfind("a second saker-base of robot BASE is on the network (process ", 0), 0u)
+      << line;
+}
+
+TEST_F(WithRoute, OfTwoThatMeetAfterTheirStartsTheYoungerIsOutranked) {
+  Bus first_bus(BusConfig{}, "R1"), second_bus(BusConfig{}, "R1");
+  Presence first(first_bus, "saker-base");
+  first.claim(milliseconds(0));  // as on networks that are still apart
+  Presence second(second_bus, "saker-base");
+  second.claim(milliseconds(0));
+  handle_until(first_bus, [&] {
+    second.announce();
+    return first.contested();
+  });
+  handle_until(second_bus, [&] {
+    first.announce();
+    return second.contested();
+  });
+  EXPECT_FALSE(first.outranked());
+  EXPECT_TRUE(second.outranked());
+}
+
 TEST_F(WithRoute, OneThatStartsAnnouncesItselfEvery50MsThoughItHearsItself) {
   Bus bus(BusConfig{}, "R1"), listener(BusConfig{}, "R1");
   int heard = 0;
