@@ -1,9 +1,12 @@
 #include "base_station/relay.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <regex>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "core/error.h"
 
@@ -76,7 +79,11 @@ bool Relay::hear(const std::string& channel, Bus::Bytes bytes, const Passage& fr
   if (!known && passages_.size() >= static_cast<std::size_t>(config_.most_channels))
     return refuse(counters_.crowded);
   Passage& passage = passages_.try_emplace(channel, fresh).first->second;
-  if (is_echo(passage, message)) return refuse(counters_.echoes);
+  if (is_echo(passage, message)) {
+    if (!std::exchange(passage.echoed, true))
+      spdlog::warn("another relay carries {} back, it is dropped", channel);
+    return refuse(counters_.echoes);
+  }
   counters_.replaced += passage.waiting.has_value();
   passage.waiting = std::move(message);
   return true;

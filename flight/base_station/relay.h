@@ -67,6 +67,7 @@ class Relay {
     std::optional<std::vector<std::uint8_t>> waiting;
     std::array<Sent, 16> sent{};  ///< the last ones, as a ring
     std::size_t sent_count = 0;
+    bool echoed = false;  ///< was carried back once
   };
 
   void subscribe(const std::vector<RelayedChannel>& channels, Bus& from, Bus& to,

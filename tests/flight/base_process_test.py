@@ -8,20 +8,21 @@ import unittest
 
 from base_processes import BIN, NamespaceTest
 
-HISTORY = 200_000  # bytes: ten minutes of flight
+HISTORY = 200_000       # bytes: ten minutes of flight
+LONG_HISTORY = 400_000  # four seconds of transfer, to be killed in
 
 
 class Exchange(NamespaceTest):
     def test_killed_five_times_in_a_transfer_with_loss_it_holds_the_same_bytes(self):
         base = self.start_base()
-        robot = self.start_robot("R1", HISTORY, loss=0.3)
+        robot = self.start_robot("R1", LONG_HISTORY, loss=0.3)
         for kill in range(1, 6):
-            self.wait(lambda: self.stored_bytes("R1") > HISTORY * kill / 7, 60, f"bytes before kill {kill}")
+            self.wait(lambda: self.stored_bytes("R1") > LONG_HISTORY * kill / 7, 60, f"bytes before kill {kill}")
             base.kill()
             base.wait()
-            self.assertLess(self.stored_bytes("R1"), HISTORY, "killed after the transfer, not in it")
+            self.assertLess(self.stored_bytes("R1"), LONG_HISTORY, "killed after the transfer, not in it")
             base = self.start_base()
-        self.wait(lambda: self.stored_bytes("R1") == HISTORY, 60, "whole history")
+        self.wait(lambda: self.stored_bytes("R1") == LONG_HISTORY, 60, "whole history")
         self.assertEqual(self.stop(robot), 0)
         self.assertEqual(self.stop(base), 0)
         self.assertEqual(self.stored()["R1", 1], self.held_by("R1")["R1_history_1"])
@@ -41,12 +42,12 @@ class Exchange(NamespaceTest):
     def test_robots_killed_in_a_transfer_hand_over_the_same_bytes(self):
         base = self.start_base()
         for kill in range(1, 6):
-            robot = self.start_robot("R1", HISTORY, loss=0.3)
-            self.wait(lambda: self.stored_bytes("R1") > HISTORY * kill / 7, 60, f"bytes before kill {kill}")
+            robot = self.start_robot("R1", LONG_HISTORY, loss=0.3)
+            self.wait(lambda: self.stored_bytes("R1") > LONG_HISTORY * kill / 7, 60, f"bytes before kill {kill}")
             robot.kill()
             robot.wait()
-        robot = self.start_robot("R1", HISTORY, loss=0.3)
-        self.wait(lambda: self.stored_bytes("R1") == HISTORY, 60, "whole history")
+        robot = self.start_robot("R1", LONG_HISTORY, loss=0.3)
+        self.wait(lambda: self.stored_bytes("R1") == LONG_HISTORY, 60, "whole history")
         self.stop(robot)
         self.stop(base)
         self.assertEqual(self.stored()["R1", 1], self.held_by("R1")["R1_history_1"])
