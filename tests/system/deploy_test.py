@@ -1,0 +1,182 @@
+"""Installed from the packages into a clean Debian that systemd boots: start, kill, restart, stop, a mission flown."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import unittest
+
+import container
+
+CHECKER, FLIGHT = "saker-collision-checker", "saker-flight"
+SCENARIO = "/usr/share/saker/scenarios/small.yaml"
+DROP_IN = "[Service]\nCapabilityBoundingSet=CAP_SYS_NICE\nAmbientCapabilities=CAP_SYS_NICE\n"
+
+
+def setUpModule():
+    container.require_machine()
+    global debs
+    container.base()
+    debs = container.packages()
+
+
+class Units(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        root = container.installed("booted", debs)
+        if not container.may_raise_limits():  # else LimitRTPRIO= of the units does the same
+            print("this machine may raise no limits: a capability stands in for LimitRTPRIO=")
+            for unit in (CHECKER, FLIGHT):
+                folder = root / f"etc/systemd/system/{unit}.service.d"
+                folder.mkdir(parents=True)
+                (folder / "limits.conf").write_text(DROP_IN)
+        cls.box = container.Container(root)
+        cls.addClassCleanup(cls.box.end)
+        cls.flown = 0
+
+    def setUp(self):
+        self.run = self.box.run
+        self.run("systemctl", "reset-failed")
+        self.run("systemctl", "start", "saker.target")
+        self.addCleanup(self.run, "systemctl", "kill", "-s", "KILL", FLIGHT, check=False)
+
+    def show(self, unit, name):
+        return self.run("systemctl", "show", "-p", name, "--value", unit).stdout.strip()
+
+    def wait_for(self, unit, name, value, seconds):
+        self.box.wait(lambda: self.show(unit, name) == value, seconds, f"{name}={value} of {unit}")
+
+    def said(self, unit):
+        return self.run("journalctl", "--no-pager", "-o", "cat", "-u", unit).stdout
+
+    def kill(self, unit):
+        self.run("systemctl", "kill", "-s", "KILL", "--kill-whom=main", unit)
+
+    def restarts(self, unit, before, seconds=10):
+        """By systemd itself, to another process."""
+        def restarted():
+            pid = self.show(unit, "MainPID")
+            return pid not in ("0", before) and self.show(unit, "ActiveState") == "active"
+        self.box.wait(restarted, seconds, f"restart of {unit}")
+
+    def simulate(self):
+        """An aircraft on the ground, and what its operator writes into the configuration."""
+        type(self).flown += 1
+        site = pathlib.Path(f"/root/site{self.flown}")
+        log = open(container.FOLDER / f"simulator{self.flown}.log", "w")
+        sim = subprocess.Popen(self.box.inside("saker-sim", SCENARIO, "-o", site, "--seed", "1"), stdin=subprocess.DEVNULL,
+                               stdout=log, stderr=log)
+        log.close()
+        self.addCleanup(sim.wait)
+        self.addCleanup(self.run, "pkill", "-KILL", "-x", "saker-sim", check=False)
+        inside = pathlib.Path(f"{self.box.root}{site}")
+        self.box.wait((inside / "metadata.json").exists, 60, "site")
+        for source, name in (("metadata.json", "sensor.json"), ("prior.json", "prior.json"), ("site.yaml", "saker.yaml")):
+            self.run("install", "-m", "644", site / source, f"/etc/saker/{name}")
+        self.run("sed", "-i", 's|^FLIGHT_OPTIONS=.*|FLIGHT_OPTIONS="--prior /etc/saker/prior.json"|', "/etc/default/saker")
+        return site
+
+    def take_off(self):
+        site = self.simulate()
+        self.run("systemctl", "start", FLIGHT)
+        self.box.wait(lambda: self.show(FLIGHT, "StatusText").startswith("tour"), 60, "tour")
+        return site
+
+    def test_the_units_are_valid(self):
+        units = sorted(str(p.relative_to(self.box.root)) for p in (self.box.root / "lib/systemd/system").glob("saker*"))
+        self.assertGreaterEqual(len(units), 4)
+        self.assertEqual(self.run("systemd-analyze", "verify", *(f"/{unit}" for unit in units)).stdout, "")
+        self.assertEqual(self.show(FLIGHT, "LimitRTPRIO"), "75")
+        self.assertEqual(self.show(FLIGHT, "LimitMEMLOCK"), "infinity")
+
+    def test_what_flies_has_real_time_priority_and_is_not_root(self):
+        pid = self.show(CHECKER, "MainPID")
+        self.assertEqual(self.run("chrt", "-p", pid).stdout.split(": ")[1].splitlines()[0], "SCHED_FIFO")
+        self.assertEqual(self.run("stat", "-c", "%U", f"/proc/{pid}").stdout.strip(), "saker")
+
+    def test_a_killed_checker_is_restarted(self):
+        before = self.show(CHECKER, "MainPID")
+        self.kill(CHECKER)
+        self.restarts(CHECKER, before)
+
+    def test_a_hanging_checker_is_restarted_by_the_watchdog(self):
+        before = self.show(CHECKER, "MainPID")
+        os.kill(self.box.host_pid(before), signal.SIGSTOP)
+        self.restarts(CHECKER, before)
+        self.assertIn("Watchdog timeout", self.said(CHECKER))
+
+    def test_the_checker_ends_when_it_is_stopped(self):
+        self.run("systemctl", "stop", CHECKER)
+        self.assertEqual(self.show(CHECKER, "Result"), "success")
+        self.assertIn("ends as asked", self.said(CHECKER))
+
+    def test_who_dies_again_and_again_stays_down(self):
+        for _ in range(6):
+            self.box.wait(lambda: self.show(CHECKER, "SubState") in ("running", "failed"), 10, "checker")
+            self.kill(CHECKER) if self.show(CHECKER, "SubState") == "running" else None
+        self.wait_for(CHECKER, "SubState", "failed", 10)
+        self.assertEqual(self.show(CHECKER, "Result"), "start-limit-hit")
+
+    def test_a_mission_is_flown(self):
+        site = self.take_off()
+        self.wait_for(FLIGHT, "ActiveState", "inactive", 240)
+        self.assertEqual(self.show(FLIGHT, "Result"), "success", self.said(FLIGHT)[-3000:])
+        flight = self.run("sh", "-c", "ls -d /var/lib/saker/flights/* | tail -n 1").stdout.strip()
+        self.box.wait(pathlib.Path(f"{self.box.root}{site}/truth.json").exists, 20, "truth of the simulator")
+        report = self.run("saker", "flight-report", flight, site, "-o", f"{site}/report", check=False)
+        print(report.stdout)
+        self.assertEqual(report.returncode, 0, report.stdout)
+
+    def test_a_robot_that_is_stopped_in_flight_lands(self):
+        site = self.take_off()
+        self.run("systemctl", "stop", FLIGHT)
+        self.assertIn("landed; 0 collisions", self.landed())
+        self.assertIn("done: landed", self.said(FLIGHT))
+
+    def landed(self):
+        log = container.FOLDER / f"simulator{self.flown}.log"
+        self.box.wait(lambda: "landed; " in log.read_text(), 40, "landing")
+        return log.read_text()
+
+    def test_killed_on_the_ground_it_is_restarted(self):
+        self.simulate()
+        self.run("pkill", "-STOP", "-x", "saker-sim")  # no packet comes
+        self.run("systemctl", "start", FLIGHT)
+        before = self.show(FLIGHT, "MainPID")
+        self.kill(FLIGHT)
+        self.restarts(FLIGHT, before)
+
+    def test_hanging_in_flight_it_is_killed_and_does_not_take_off_again(self):
+        self.take_off()
+        self.box.hang_thread(self.show(FLIGHT, "MainPID"), "safety")
+        self.wait_for(FLIGHT, "ActiveState", "failed", 20)
+        said = self.said(FLIGHT)
+        for words in ("safety hangs", "Watchdog timeout", "restarted in the middle of a flight"):
+            self.assertIn(words, said)
+        self.assertEqual(self.show(FLIGHT, "NRestarts"), "1")
+        self.assertIn("landed; 0 collisions", self.landed())
+        self.simulate()
+        self.run("systemctl", "start", FLIGHT)  # by its operator it may
+
+
+class Packages(unittest.TestCase):
+    """Without systemd running: what dpkg does."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.root = container.installed("unbooted", debs)
+
+    def test_configuration_survives_an_upgrade_and_a_purge_leaves_nothing(self):
+        own = self.root / "etc/saker/saker.yaml"
+        own.write_text("mission: {height_m: 4}\n")
+        container.apt(self.root, "install", "--reinstall", *(f"/packages/{deb.name}" for deb in debs))
+        self.assertEqual(own.read_text(), "mission: {height_m: 4}\n")
+        (self.root / "var/lib/saker").mkdir(exist_ok=True)
+        container.apt(self.root, "purge", "saker-common")
+        left = container.command("chroot", self.root, "sh", "-c", "dpkg -l 'saker-*' | grep ^ii; find / -xdev -path /packages -prune "
+                                 "-o -path /proc -prune -o -name '*saker*' -print", check=False).stdout
+        self.assertEqual(left, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
