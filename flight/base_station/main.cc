@@ -13,6 +13,7 @@
 #include "core/config_io.h"
 #include "core/error.h"
 #include "process/process.h"
+#include "process/service.h"
 
 namespace saker::flight {
 namespace {
@@ -74,6 +75,8 @@ void claim(Side& robots, std::optional<Side>& ground) {
 }
 
 void serve(BaseStation& base, Side& robots, std::optional<Side>& ground) {
+  Service service;
+  service.ready();
   Steady::time_point next_announcement = Steady::now();
   while (stop_requests() == 0) {
     const auto until = std::min(base.next_due(), next_announcement);
@@ -81,11 +84,13 @@ void serve(BaseStation& base, Side& robots, std::optional<Side>& ground) {
     if (Bus::handle({&robots.bus, ground ? &ground->bus : nullptr}, wait) < 0)
       throw Error("the LCM network is gone");
     base.step(Steady::now());
+    service.alive(Steady::now());
     if (Steady::now() < next_announcement) continue;
     robots.announce();
     if (ground) ground->announce();
     next_announcement = Steady::now() + Presence::kPeriod;
   }
+  service.stopping();
 }
 
 int run(const ProcessOptions& options) {

@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import threading
 import time
 import unittest
 
@@ -15,6 +16,7 @@ MIRROR = os.environ.get("SAKER_MIRROR", "http://deb.debian.org/debian")
 INCLUDED = "systemd,systemd-sysv,iproute2,procps,logrotate"
 CAP_SYS_RESOURCE = 24
 PTRACE_ATTACH = 16
+WALL = 0x40000000  # waitpid(2), __WALL: threads too
 
 
 def command(*words, check=True, **options):
@@ -45,7 +47,8 @@ def base():
     if not folder.exists():
         shutil.rmtree(part, ignore_errors=True)
         FOLDER.mkdir(parents=True, exist_ok=True)
-        made = command("debootstrap", "--variant=minbase", f"--include={INCLUDED}", "bookworm", part, MIRROR, check=False)
+        made = command("debootstrap", "--variant=minbase", f"--include={INCLUDED}", "bookworm", part, MIRROR,
+                       check=False)
         if made.returncode != 0:
             raise unittest.SkipTest(f"no Debian from {MIRROR}: {made.stdout[-500:]}")
         part.rename(folder)
@@ -74,6 +77,15 @@ def installed(name, debs):
     apt(root, "update")
     apt(root, "install", *(f"/packages/{deb.name}" for deb in debs))
     return root
+
+
+def reap(task):
+    """A traced thread is not gone before who traces it has heard of its end."""
+    try:
+        while not os.WIFSIGNALED(os.waitpid(task, WALL)[1]):
+            pass
+    except ChildProcessError:
+        pass
 
 
 class Container:
@@ -134,11 +146,12 @@ class Container:
         raise AssertionError(f"no process {pid} in the container")
 
     def hang_thread(self, pid, name):
-        """One thread of a process stands still from now on, the others run."""
+        """One thread of a process stands still from now on, the others run: this process traces it."""
         for task in pathlib.Path(f"/proc/{self.host_pid(pid)}/task").iterdir():
             if (task / "comm").read_text().strip() == name:
                 libc = ctypes.CDLL(None, use_errno=True)
                 if libc.ptrace(PTRACE_ATTACH, int(task.name), None, None) != 0:
                     raise AssertionError(os.strerror(ctypes.get_errno()))
+                threading.Thread(target=reap, args=(int(task.name),), daemon=True).start()
                 return
         raise AssertionError(f"no thread {name}")

@@ -8,8 +8,10 @@ import unittest
 
 import container
 
-CHECKER, FLIGHT = "saker-collision-checker", "saker-flight"
+CHECKER, FLIGHT, BASE = "saker-collision-checker", "saker-flight", "saker-base"
 SCENARIO = "/usr/share/saker/scenarios/small.yaml"
+# Killed while it is being stopped it is not restarted.
+END = f"systemctl stop --no-block {FLIGHT}; systemctl kill -s KILL {FLIGHT}; systemctl stop {FLIGHT}"
 DROP_IN = "[Service]\nCapabilityBoundingSet=CAP_SYS_NICE\nAmbientCapabilities=CAP_SYS_NICE\n"
 
 
@@ -32,13 +34,15 @@ class Units(unittest.TestCase):
                 (folder / "limits.conf").write_text(DROP_IN)
         cls.box = container.Container(root)
         cls.addClassCleanup(cls.box.end)
+        cls.box.run("saker", "base", "key", "-o", "/etc/saker/team.key")
+        cls.box.run("chown", "saker:", "/etc/saker/team.key")
         cls.flown = 0
 
     def setUp(self):
         self.run = self.box.run
         self.run("systemctl", "reset-failed")
         self.run("systemctl", "start", "saker.target")
-        self.addCleanup(self.run, "systemctl", "kill", "-s", "KILL", FLIGHT, check=False)
+        self.addCleanup(self.run, "sh", "-c", END, check=False)
 
     def show(self, unit, name):
         return self.run("systemctl", "show", "-p", name, "--value", unit).stdout.strip()
@@ -64,16 +68,18 @@ class Units(unittest.TestCase):
         type(self).flown += 1
         site = pathlib.Path(f"/root/site{self.flown}")
         log = open(container.FOLDER / f"simulator{self.flown}.log", "w")
-        sim = subprocess.Popen(self.box.inside("saker-sim", SCENARIO, "-o", site, "--seed", "1"), stdin=subprocess.DEVNULL,
-                               stdout=log, stderr=log)
+        sim = subprocess.Popen(self.box.inside("saker-sim", SCENARIO, "-o", site, "--seed", "1"),
+                               stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         log.close()
         self.addCleanup(sim.wait)
         self.addCleanup(self.run, "pkill", "-KILL", "-x", "saker-sim", check=False)
         inside = pathlib.Path(f"{self.box.root}{site}")
         self.box.wait((inside / "metadata.json").exists, 60, "site")
-        for source, name in (("metadata.json", "sensor.json"), ("prior.json", "prior.json"), ("site.yaml", "saker.yaml")):
+        names = {"metadata.json": "sensor.json", "prior.json": "prior.json", "site.yaml": "saker.yaml"}
+        for source, name in names.items():
             self.run("install", "-m", "644", site / source, f"/etc/saker/{name}")
-        self.run("sed", "-i", 's|^FLIGHT_OPTIONS=.*|FLIGHT_OPTIONS="--prior /etc/saker/prior.json"|', "/etc/default/saker")
+        prior = 's|^FLIGHT_OPTIONS=.*|FLIGHT_OPTIONS="--prior /etc/saker/prior.json"|'
+        self.run("sed", "-i", prior, "/etc/default/saker")
         return site
 
     def take_off(self):
@@ -84,7 +90,7 @@ class Units(unittest.TestCase):
 
     def test_the_units_are_valid(self):
         units = sorted(str(p.relative_to(self.box.root)) for p in (self.box.root / "lib/systemd/system").glob("saker*"))
-        self.assertGreaterEqual(len(units), 4)
+        self.assertEqual(len(units), 5)
         self.assertEqual(self.run("systemd-analyze", "verify", *(f"/{unit}" for unit in units)).stdout, "")
         self.assertEqual(self.show(FLIGHT, "LimitRTPRIO"), "75")
         self.assertEqual(self.show(FLIGHT, "LimitMEMLOCK"), "infinity")
@@ -104,6 +110,15 @@ class Units(unittest.TestCase):
         os.kill(self.box.host_pid(before), signal.SIGSTOP)
         self.restarts(CHECKER, before)
         self.assertIn("Watchdog timeout", self.said(CHECKER))
+
+    def test_a_killed_base_is_restarted_with_its_store(self):
+        self.box.wait(lambda: self.show(BASE, "ActiveState") == "active", 10, "base")
+        before = self.show(BASE, "MainPID")
+        self.kill(BASE)
+        self.restarts(BASE, before)
+        self.run("saker", "base", "status", "--store", "/var/lib/saker/base/base.db")
+        self.run("systemctl", "stop", BASE)
+        self.assertEqual(self.show(BASE, "Result"), "success")
 
     def test_the_checker_ends_when_it_is_stopped(self):
         self.run("systemctl", "stop", CHECKER)
@@ -173,8 +188,9 @@ class Packages(unittest.TestCase):
         self.assertEqual(own.read_text(), "mission: {height_m: 4}\n")
         (self.root / "var/lib/saker").mkdir(exist_ok=True)
         container.apt(self.root, "purge", "saker-common")
-        left = container.command("chroot", self.root, "sh", "-c", "dpkg -l 'saker-*' | grep ^ii; find / -xdev -path /packages -prune "
-                                 "-o -path /proc -prune -o -name '*saker*' -print", check=False).stdout
+        find = ("dpkg -l 'saker-*' 2>/dev/null | grep ^ii; "
+                "find / -xdev -path /packages -prune -o -path /proc -prune -o -name '*saker*' -print")
+        left = container.command("chroot", self.root, "sh", "-c", find, check=False).stdout
         self.assertEqual(left, "")
 
 
