@@ -66,7 +66,7 @@ class Units(unittest.TestCase):
     def simulate(self):
         """An aircraft on the ground, and what its operator writes into the configuration."""
         type(self).flown += 1
-        site = pathlib.Path(f"/root/site{self.flown}")
+        site = pathlib.Path(f"/var/tmp/site{self.flown}")
         log = open(container.FOLDER / f"simulator{self.flown}.log", "w")
         sim = subprocess.Popen(self.box.inside("saker-sim", SCENARIO, "-o", site, "--seed", "1"),
                                stdin=subprocess.DEVNULL, stdout=log, stderr=log)
@@ -155,7 +155,7 @@ class Units(unittest.TestCase):
 
     def test_killed_on_the_ground_it_is_restarted(self):
         self.simulate()
-        self.run("pkill", "-STOP", "-x", "saker-sim")  # no packet comes
+        self.run("pkill", "-KILL", "-x", "saker-sim")  # no packet comes
         self.run("systemctl", "start", FLIGHT)
         before = self.show(FLIGHT, "MainPID")
         self.kill(FLIGHT)
