@@ -126,4 +126,22 @@ std::vector<objects::Measurement> read_detections(const std::filesystem::path& f
   return measurements;
 }
 
+DetectionsWriter::DetectionsWriter(const std::filesystem::path& out,
+                                   const objects::ClassTable& table)
+    : file_(out / "detections.jsonl"), table_(table), part_(out / "detections.jsonl.part") {
+  if (!part_) throw Error(fmt::format("cannot write {}", file_.string()));
+}
+
+void DetectionsWriter::add(const objects::Detections& detections) {
+  for (const objects::Measurement& m : detections.measurements) {
+    part_ << measurement_json(m, table_).dump() << '\n';
+  }
+}
+
+void DetectionsWriter::finish() {
+  part_.close();
+  if (!part_) throw Error(fmt::format("cannot write {}", file_.string()));
+  std::filesystem::rename(file_.string() + ".part", file_);
+}
+
 }  // namespace saker::tools

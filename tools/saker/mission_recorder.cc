@@ -32,6 +32,7 @@ void MissionRecorder::on_scan(const autonomy::IngestedScan& scan) {
 }
 
 void MissionRecorder::on_map(const autonomy::MapSnapshot& map) {
+  detections_.add(map.detections);
   viewpoints_.take(map.stamp, map.map, truth_);
 }
 

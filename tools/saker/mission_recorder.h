@@ -10,6 +10,7 @@
 
 #include "autonomy/mission_lockstep.h"
 #include "core/progress.h"
+#include "saker/detections_file.h"
 #include "saker/trajectory_truth.h"
 #include "saker/viewpoint_log.h"
 #include "simulation/simulated_vehicle.h"
@@ -17,15 +18,18 @@
 namespace saker::tools {
 
 /// Hears a mission: logs every transition, counts refusals by their cause, keeps what the picture
-/// and the comparison with the truth need.
+/// and the comparison with the truth need; streams detections to OUT/detections.jsonl.
 class MissionRecorder : public autonomy::MissionObserver {
  public:
   /// \param progress  over the targets; none where several missions go side by side
-  MissionRecorder(simulation::SimulatedVehicle& vehicle, std::shared_ptr<spdlog::logger> log,
+  /// Throws Error where OUT cannot be written.
+  MissionRecorder(simulation::SimulatedVehicle& vehicle, const std::filesystem::path& out,
+                  const objects::ClassTable& table, std::shared_ptr<spdlog::logger> log,
                   core::Progress* progress)
       : vehicle_(vehicle),
         start_(vehicle.now()),
         truth_(vehicle.true_map()),
+        detections_(out, table),
         log_(std::move(log)),
         progress_(progress) {}
 
@@ -40,6 +44,7 @@ class MissionRecorder : public autonomy::MissionObserver {
   [[nodiscard]] const std::vector<StampedPose>& true_poses() const { return true_poses_; }
   /// Points of all scans in `world`. \param T_world_lidar of the scans, after SLAM
   [[nodiscard]] std::vector<Eigen::Vector3d> cloud(const std::vector<SE3>& T_world_lidar) const;
+  void finish() { detections_.finish(); }  ///< throws Error when not all could be written
   /// {"refusals": {cause: number}, "events": [{"t_s", "from", "to", "cause", "text"}]}
   [[nodiscard]] nlohmann::ordered_json record() const;
 
@@ -52,6 +57,7 @@ class MissionRecorder : public autonomy::MissionObserver {
   simulation::SimulatedVehicle& vehicle_;
   Time start_;
   objects::ObjectMap truth_;
+  DetectionsWriter detections_;
   ViewpointLog viewpoints_;
   std::shared_ptr<spdlog::logger> log_;
   core::Progress* progress_;

@@ -139,7 +139,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
                                     run.threads, timings);
   std::optional<core::Progress> progress;
   if (run.shows_progress) progress.emplace(run.scenario, site.targets.size());
-  MissionRecorder recorder(vehicle, run.log, progress ? &*progress : nullptr);
+  MissionRecorder recorder(vehicle, out, config.objects, run.log, progress ? &*progress : nullptr);
   const double built_s = seconds_since(begin);
   const Time start = vehicle.now();
   const autonomy::MissionResult result = mission.run(longest_s(config.mission), recorder);
@@ -165,6 +165,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
   results["set_up_s"] = built_s;
   results["real_time_factor"] = flown_s / wall_s;
 
+  recorder.finish();
   write_trajectories(result, recorder, out);
   write_maps(result, truth, site.prior, recorder, config.objects, out);
   core::write_file(out / "viewpoints.csv", recorder.viewpoints().csv());

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
 #include "core/files.h"
 #include "objects/map_io.h"
-#include "saker/detections_file.h"
 
 namespace saker::tools {
 namespace {
@@ -24,10 +22,7 @@ std::string tum_row(Time stamp, const SE3& T) {
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& out, const objects::ClassTable& table)
-    : out_(out), table_(table), detections_(out / "detections.jsonl.part") {
-  if (!detections_)
-    throw Error(fmt::format("cannot write {}", (out / "detections.jsonl").string()));
-}
+    : out_(out), table_(table), detections_(out, table) {}
 
 void RunRecorder::on_scan(const autonomy::ScanRecord&, const odometry::OdometryEstimate& estimate) {
   const std::size_t stride = std::max<std::size_t>(estimate.points.size() / kPointsPerScan, 1);
@@ -38,17 +33,11 @@ void RunRecorder::on_scan(const autonomy::ScanRecord&, const odometry::OdometryE
 }
 
 void RunRecorder::on_detections(const objects::Detections& detections) {
-  for (const objects::Measurement& m : detections.measurements) {
-    detections_ << measurement_json(m, table_).dump() << '\n';
-  }
+  detections_.add(detections);
 }
 
 void RunRecorder::write(const autonomy::LockstepResult& result) {
-  detections_.close();
-  if (!detections_)
-    throw Error(fmt::format("cannot write {}", (out_ / "detections.jsonl").string()));
-  std::filesystem::rename(out_ / "detections.jsonl.part", out_ / "detections.jsonl");
-
+  detections_.finish();
   std::string trajectory, odometry;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     trajectory += tum_row(result.scans[i].stamp, result.T_world_lidar[i]);

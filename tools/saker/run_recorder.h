@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "autonomy/lockstep.h"
+#include "saker/detections_file.h"
 
 /// What a run over a recording leaves behind, as in docs/contract.md.
 namespace saker::tools {
@@ -36,7 +36,7 @@ class RunRecorder : public autonomy::LockstepObserver {
 
   std::filesystem::path out_;
   const objects::ClassTable& table_;
-  std::ofstream detections_;
+  DetectionsWriter detections_;
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;
 };
