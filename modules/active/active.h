@@ -66,23 +66,25 @@ struct GoalsConfig {
 
 /// The baseline: visits each target of the prior map.
 struct VisitConfig {
-  int sides = 2;
+  int sides = 1;
   double separation_deg = 120;
   double dwell_s = 3.0;
-  double oblique_worth_m = 10;
+  double oblique_worth_m = 0;
   double unknown_worth_m = 5;
   double switch_m = 5;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("sides", sides, {1, 4}, "",
-            "from which a target is seen; from two opposite corners all its four edges are");
+            "from which a target is seen: the paper's baseline visits each place once. From two "
+            "opposite corners all four edges are seen");
     v.field("separation_deg", separation_deg, {10, 180}, "deg",
             "least angle between sides, at most 180 / (sides − 1): each finds room then");
     v.field("dwell_s", dwell_s, {0, 60}, "s",
             "in view from a side: five windows, after which SLAM believes in an object");
     v.field("oblique_worth_m", oblique_worth_m, {0, 100}, "m",
-            "detour for an oblique instead of a straight view: it shows length and width at once");
+            "detour for an oblique instead of a straight view, which shows length and width at "
+            "once: 0 for the baseline, which knows nothing of views");
     v.field("unknown_worth_m", unknown_worth_m, {0, 100}, "m",
             "detour for a viewpoint that is known to be free");
     v.field("switch_m", switch_m, {0, 100}, "m",
@@ -111,7 +113,7 @@ struct ActiveConfig {
     v.group("view", view, "the sensor's field of view");
     v.group("viewpoints", viewpoints, "places to look from");
     v.group("goals", goals, "viewpoints that are flown to, whatever the policy");
-    v.group("visit", visit_policy, "policy visit: every target, from several sides");
+    v.group("visit", visit_policy, "policy visit: every target, from one side or several");
     v.group("region", region, "of good views, for the policies that follow");
     v.group("paper", paper, "policy paper: PAMS as the paper has it");
     v.group("saker", saker, "policy saker: PAMS with the price of time, drift, several at once");

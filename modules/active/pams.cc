@@ -5,10 +5,18 @@
 #include "active/flight_time.h"
 
 namespace saker::active {
+namespace {
+
+ActiveConfig searching(ActiveConfig config, const PamsConfig& pams) {
+  config.visit_policy.sides = pams.search_sides;
+  return config;
+}
+
+}  // namespace
 
 PamsPolicy::PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,
                        InGeofence in_geofence, ViewModel model, const motion::LimitsConfig& limits)
-    : VisitPolicy(config, std::move(targets), std::move(in_geofence)),
+    : VisitPolicy(searching(config, pams), std::move(targets), std::move(in_geofence)),
       pams_(pams),
       model_(std::move(model)),
       limits_(limits) {}

@@ -27,6 +27,7 @@ struct PamsConfig {
   bool drift_counts = false;
   double most_drift_m = 0.3;
   int most_views = 12;
+  int search_sides = 2;
 
   [[nodiscard]] static PamsConfig paper() { return {}; }
 
@@ -35,7 +36,7 @@ struct PamsConfig {
     config.sampling = Sampling::uniform;
     config.beyond_region = true;
     config.common_counts = true;
-    config.price_per_s = 0.05;
+    config.price_per_s = 0.3;
     config.at_once = 4;
     config.replan = true;
     config.drift_counts = true;
@@ -78,6 +79,8 @@ struct PamsConfig {
     v.field("most_drift_m", most_drift_m, {0.01, 10}, "m",
             "sd of the pose since a target was first seen, beyond which it is looked at no more");
     v.field("most_views", most_views, {1, 100}, "", "viewpoints flown to a target");
+    v.field("search_sides", search_sides, {1, 4}, "",
+            "from which a target that is not in the map is looked for: behind what hides it, too");
   }
 };
 

@@ -12,15 +12,11 @@ namespace {
 
 using objects::Measurement;
 
-/// The planar part of a covariance replaced; nothing is known of how it goes with the rest.
+/// To what this window could see of the object comes what windows from there err by besides.
 Eigen::MatrixXd with_planar(const Eigen::MatrixXd& covariance, const std::vector<int>& rows,
                             const Eigen::MatrixXd& fitted) {
   Eigen::MatrixXd result = covariance;
-  for (const int row : rows) {
-    result.row(row).setZero();
-    result.col(row).setZero();
-  }
-  result(rows, rows) = fitted;
+  result(rows, rows) += fitted;
   return result;
 }
 

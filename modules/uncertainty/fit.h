@@ -16,7 +16,7 @@
 namespace saker::uncertainty {
 
 struct FitConfig {
-  std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18};
+  std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
   int least_objects = 10;
   int least_draws = 5;

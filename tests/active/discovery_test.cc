@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/rng.h"
 #include "made_fence.h"
+#include "made_flight.h"
 #include "made_street.h"
 
 namespace saker::active {
@@ -41,7 +42,7 @@ std::shared_ptr<const occupancy::OccupancyGrid> block_of(const std::vector<Cuboi
 /// gets mapped; the occupancy block knows all.
 struct Flight {
   Flight(const std::vector<Cuboid>& there, const objects::ObjectMap& prior,
-         ActiveConfig config = {}, const motion::Geofence& fence = box_fence(50, 40))
+         ActiveConfig config = two_sided(), const motion::Geofence& fence = box_fence(50, 40))
       : cars(there),
         seen_s(there.size(), 0),
         policy(config, kTable,
@@ -174,7 +175,7 @@ TEST(Discovery, SameVehicleMappedTwiceIsOneTarget) {
 }
 
 TEST(Discovery, HasACeiling) {
-  ActiveConfig config;
+  ActiveConfig config = two_sided();
   config.discovery.most = 2;
   Flight flight({}, map_of({car(30, 0)}), config);
   (void)map_given(map_of(kPark), flight, 20);
@@ -321,7 +322,7 @@ TEST(Discovery, OccupiedStopsAreLeftOut) {
 
 /// Objects appear and vanish, places are free and are not: everything that opens again and again.
 TEST(Discovery, WorldThatFlickersEnds) {
-  ActiveConfig config;
+  ActiveConfig config = two_sided();
   config.discovery.sweep.when = SweepWhen::always;
   Flight flight({}, map_of(kPark), config);
   core::Rng rng(4);

@@ -14,6 +14,13 @@ inline bool everywhere(const Eigen::Vector3d&) { return true; }
 
 const core::Budget kBudget = core::Budget::iterations(1000);
 
+/// Policy `visit` as a heuristic: two opposite sides, oblique where it can be.
+inline ActiveConfig two_sided(ActiveConfig config = {}) {
+  config.visit_policy.sides = 2;
+  config.visit_policy.oblique_worth_m = 10;
+  return config;
+}
+
 /// A vehicle that flies straight to what the policy says, a decision a second.
 struct Flight {
   explicit Flight(std::unique_ptr<Policy> made) : policy(std::move(made)) {}

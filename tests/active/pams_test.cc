@@ -208,6 +208,7 @@ TEST_P(BothPolicies, EndWhenTheHeadingFlipsAllTheTime) {
 TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue) {
   PamsConfig config = never_enough(GetParam());
   config.drift_counts = false;
+  config.price_per_s = 0;
   PamsFlight flight(config, {car(20, 0)});
   flight.fly(600);
   ASSERT_GE(flight.flown.size(), 2U);
@@ -312,7 +313,9 @@ TEST(Paper, KeepsTheGoalUntilItIsSeenFromThere) {
 }
 
 TEST(Saker, TakesABetterViewpointWhenOneAppears) {
-  PamsFlight flight(PamsConfig::saker(), {car(30, 0)});
+  PamsConfig config = PamsConfig::saker();
+  config.price_per_s = 0.05;
+  PamsFlight flight(config, {car(30, 0)});
   const Viewpoint first = *flight.decide().goal;
   flight.body = {60, first.position.y() > 0 ? -20.0 : 20.0, 3};  // a gust, to the other side
   flight.decide();

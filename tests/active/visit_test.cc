@@ -23,7 +23,7 @@ const GoalsConfig kGoals;
 /// Of policy `visit`, or of what the configuration says.
 struct Flight : made::Flight {
   explicit Flight(const std::vector<Cuboid>& cars, const InGeofence& in_geofence = everywhere,
-                  const ActiveConfig& config = {})
+                  const ActiveConfig& config = two_sided())
       : made::Flight(make_policy(config, kTable, map_of(cars), in_geofence)) {}
 };
 
@@ -33,6 +33,14 @@ TEST(Visit, WithoutTargetsIsFinishedAtOnce) {
   Flight flight({});
   EXPECT_EQ(flight.decide().status, ActiveStatus::finished);
   EXPECT_FALSE(flight.plan.goal);
+}
+
+TEST(Visit, ByDefaultLooksAtEachTargetOnce) {
+  Flight flight(kStreet, everywhere, {});
+  flight.map(kStreet);
+  EXPECT_LT(flight.fly(400), 400);
+  EXPECT_LE(flight.goals.size(), kStreet.size());
+  EXPECT_EQ(flight.plan.done, static_cast<int>(kStreet.size()));
 }
 
 TEST(Visit, EndsWithEveryTargetDoneWhenAllAreMapped) {
@@ -250,7 +258,7 @@ TEST(Visit, RefusalOfAnotherViewpointThanTheGoalChangesNothing) {
 }
 
 TEST(Visit, TargetThatWasRefusedIsTriedAgainAfterTheOthers) {
-  ActiveConfig one_way;
+  ActiveConfig one_way = two_sided();
   one_way.goals.return_home = false;
   Flight flight({car(15, 0), car(40, 0)}, everywhere, one_way);
   for (int i = 0; i < kGoals.most_refusals; ++i) {

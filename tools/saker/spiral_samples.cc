@@ -10,8 +10,6 @@
 namespace saker::tools {
 namespace {
 
-constexpr double kRangeMargin = 2;  ///< m beyond the farthest range about the subject
-
 std::vector<KnownObject> known_objects(const simulation::World& world,
                                        const objects::ClassTable& table) {
   std::vector<KnownObject> known;
@@ -99,7 +97,7 @@ SpiralSamples fly_spiral(const simulation::SpiralConfig& spiral,
   as_in_flight.rates.segmentation_hz = config.rates.flight_segmentation_hz;
   core::Timings timings;
   autonomy::Lockstep lockstep(as_in_flight, 1, timings);
-  Listener listener(flight, config.objects, spiral.farthest_m + kRangeMargin, recording);
+  Listener listener(flight, config.objects, config.detection.window.range_m, recording);
   (void)lockstep.run(flight, listener);
   return std::move(listener).result();
 }
