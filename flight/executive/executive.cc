@@ -190,6 +190,9 @@ void Executive::save(const std::filesystem::path& out) {
   }
   core::write_file(out / "trajectory.txt", world);
   core::write_file(out / "odometry.txt", odom);
+  std::string viewpoints;
+  for (const auto& [stamp, viewpoint] : viewpoints_) viewpoints += row(stamp, viewpoint.pose());
+  core::write_file(out / "viewpoints.txt", viewpoints);
   core::write_file(out / "timings.csv", timings_.csv());
   save_loops(out / "loops.json");
 }

@@ -108,6 +108,7 @@ class Executive {
   int map_cycles_ = 0;
   autonomy::BodyPose body_pose_;
   autonomy::Planning planning_;
+  std::vector<std::pair<Time, active::Viewpoint>> viewpoints_;  // flown to, in their order
   const bool has_targets_;
   autonomy::Guidance guidance_;
   int anchors_seen_ = 0;

@@ -7,6 +7,12 @@ namespace saker::flight {
 using autonomy::CommitStatus;
 using autonomy::PlanningOrder;
 
+namespace {
+
+constexpr std::size_t kMostViewpoints = 10000;  // of a flight: some tens
+
+}  // namespace
+
 LoopStatus Executive::pose() {
   for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample);
   for (const PoseFix& fix : board_.pose_fixes.take_all()) {
@@ -35,6 +41,11 @@ LoopStatus Executive::plan() {
     return planning_.step(input, core::Budget::until(deadline, config.iterations));
   });
   if (input.order == PlanningOrder::tour) publish_plan(output);
+  if (const auto& goal = output.plan.goal;
+      goal && viewpoints_.size() < kMostViewpoints &&
+      (viewpoints_.empty() || viewpoints_.back().second.id != goal->id)) {
+    viewpoints_.emplace_back(output.report.stamp, *goal);
+  }
   board_.plan.put(std::move(output));
   return {age_ms(input.map ? input.map->stamp : 0), 0};
 }

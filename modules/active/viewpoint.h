@@ -68,6 +68,14 @@ struct Viewpoint {
   Eigen::Vector3d position = Eigen::Vector3d::Constant(NAN);  ///< world, m
   double yaw = NAN;                                           ///< rad, towards the target
   double bearing = NAN;  ///< rad, world: from the target to the viewpoint
+
+  /// T_world_body there, level.
+  [[nodiscard]] SE3 pose() const {
+    SE3 T = SE3::Identity();
+    T.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    T.translation() = position;
+    return T;
+  }
 };
 
 /// Why a candidate is not flown to.

@@ -13,6 +13,7 @@ namespace saker::tools {
 struct FlownMission {
   objects::ObjectMap map;
   std::vector<StampedPose> trajectory;  ///< after SLAM
+  std::vector<StampedPose> viewpoints;  ///< flown to
   Json loops;                           ///< loops.json of saker-flight
   Truth truth;
   objects::ObjectMap prior;  ///< its ids are the truth's

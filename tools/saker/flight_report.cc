@@ -33,6 +33,7 @@ FlownMission read_flight(const ReportOptions& options, const objects::ClassTable
   const fs::path executive = options.executive, simulator = options.simulator;
   return {.map = objects::read_map(executive / "map.json", table),
           .trajectory = read_trajectory(executive / "trajectory.txt"),
+          .viewpoints = read_trajectory(executive / "viewpoints.txt"),
           .loops = read_json(executive / "loops.json"),
           .truth = read_truth(simulator / "truth.json", table),
           .prior = objects::read_map(simulator / "prior.json", table),
@@ -42,14 +43,18 @@ FlownMission read_flight(const ReportOptions& options, const objects::ClassTable
 }
 
 void draw(const fs::path& file, const FlownMission& flight, const objects::ClassTable& table) {
-  std::vector<Eigen::Vector3d> path;
-  for (const StampedPose& pose : flight.trajectory) {
-    path.emplace_back(pose.T_world_lidar.translation());
-  }
-  write_map_picture(
-      file,
-      {.map = flight.map, .truth = &flight.truth.map, .trajectory = std::move(path), .cloud = {}},
-      table);
+  const auto places = [](const std::vector<StampedPose>& poses) {
+    std::vector<Eigen::Vector3d> all;
+    for (const StampedPose& pose : poses) all.emplace_back(pose.T_world_lidar.translation());
+    return all;
+  };
+  write_map_picture(file,
+                    {.map = flight.map,
+                     .truth = &flight.truth.map,
+                     .trajectory = places(flight.trajectory),
+                     .viewpoints = places(flight.viewpoints),
+                     .cloud = {}},
+                    table);
 }
 
 int report(const ReportOptions& options, const CommonOptions& common) {

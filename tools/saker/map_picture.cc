@@ -11,6 +11,7 @@ namespace colours = core::colours;
 
 constexpr double kMargin_m =
     15;  // shown around trajectory and objects: beyond it points say little
+constexpr double kViewpoint_m = 0.4;  // radius of a ring: the vehicle's
 constexpr core::Colour kTruth = colours::kGrey;
 
 core::Colour colour_of(const objects::ObjectClass& object_class) {
@@ -56,6 +57,9 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
     }
   }
   picture.polyline(flat(view.trajectory), colours::kPurple);
+  for (const Eigen::Vector3d& p : view.viewpoints) {
+    picture.circle(p.head<2>(), kViewpoint_m, colours::kPurple, 3);
+  }
   for (const objects::MapObject& object : view.map.objects) {
     draw(picture, object.model, colour_of(table[object.class_id]), 2);
   }
@@ -65,6 +69,9 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
                                            {core::Mark::ring, colours::kGreen, "trunk"},
                                            {core::Mark::ring, colours::kOrange, "pole"},
                                            {core::Mark::line, colours::kPurple, "trajectory"}};
+  if (!view.viewpoints.empty()) {
+    legend.push_back({core::Mark::ring, colours::kPurple, "viewpoint"});
+  }
   if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
   picture.legend(legend);
   picture.save(file);

@@ -14,7 +14,8 @@ struct MapView {
   const objects::ObjectMap& map;
   const objects::ObjectMap* truth = nullptr;
   std::vector<Eigen::Vector3d> trajectory;
-  std::vector<Eigen::Vector3d> cloud;  ///< drawn thinly
+  std::vector<Eigen::Vector3d> viewpoints = {};  ///< that were flown to
+  std::vector<Eigen::Vector3d> cloud;            ///< drawn thinly
 };
 
 /// Writes a PNG: points, trajectory, objects with their class, the outlines of the true ones.

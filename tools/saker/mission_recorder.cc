@@ -48,6 +48,7 @@ void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
   }
   if (plan.goal && plan.goal->id != viewpoint_) {
     viewpoint_ = plan.goal->id;
+    flown_to_.emplace_back(report.stamp, *plan.goal);
     const Eigen::Vector3d& p = plan.goal->position;
     log_->debug("{:7.2f} s  target {}, {} pending: to viewpoint {} at ({:.1f}, {:.1f}, {:.1f})",
                 to_seconds(report.stamp - start_), plan.goal->target_id, plan.pending, viewpoint_,

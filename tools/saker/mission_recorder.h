@@ -40,6 +40,10 @@ class MissionRecorder : public autonomy::MissionObserver {
 
   /// What was predicted of viewpoints, and what came of it.
   [[nodiscard]] const ViewpointLog& viewpoints() const { return viewpoints_; }
+  /// That were flown to, and since when, in their order.
+  [[nodiscard]] const std::vector<std::pair<Time, active::Viewpoint>>& flown_to() const {
+    return flown_to_;
+  }
   /// T_world_lidar as it truly was, at the stamps of the scans.
   [[nodiscard]] const std::vector<StampedPose>& true_poses() const { return true_poses_; }
   /// Points of all scans in `world`. \param T_world_lidar of the scans, after SLAM
@@ -65,6 +69,7 @@ class MissionRecorder : public autonomy::MissionObserver {
   std::vector<SparsePoint> cloud_;
   std::vector<StampedPose> true_poses_;
   int viewpoint_ = -1;  ///< that is flown to
+  std::vector<std::pair<Time, active::Viewpoint>> flown_to_;
   std::map<std::string, int> refusals_;
   nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
   long events_left_out_ = 0;

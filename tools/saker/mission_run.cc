@@ -101,6 +101,11 @@ void write_trajectories(const autonomy::MissionResult& result, const MissionReco
   core::write_file(out / "trajectory.txt", trajectory);
   core::write_file(out / "odometry.txt", odometry);
   core::write_file(out / "trajectory_truth.txt", rows_of(recorder.true_poses()));
+  std::string viewpoints;
+  for (const auto& [stamp, viewpoint] : recorder.flown_to()) {
+    viewpoints += tum_row(stamp, viewpoint.pose());
+  }
+  core::write_file(out / "viewpoints.txt", viewpoints);
 }
 
 void write_maps(const autonomy::MissionResult& result, const objects::ObjectMap& truth,
@@ -112,10 +117,15 @@ void write_maps(const autonomy::MissionResult& result, const objects::ObjectMap&
   objects::write_map(out / "prior.json", prior, table);
   std::vector<Eigen::Vector3d> path;
   for (const SE3& T : result.T_world_lidar) path.emplace_back(T.translation());
+  std::vector<Eigen::Vector3d> viewpoints;
+  for (const auto& [stamp, viewpoint] : recorder.flown_to()) {
+    viewpoints.push_back(viewpoint.position);
+  }
   write_map_picture(out / "map.png",
                     {.map = result.map,
                      .truth = &truth,
                      .trajectory = std::move(path),
+                     .viewpoints = std::move(viewpoints),
                      .cloud = recorder.cloud(result.T_world_lidar)},
                     table);
 }
