@@ -7,8 +7,9 @@
 #include <vector>
 
 /// Columns of whole numbers in few bits: Rice's code (Golomb, "Run-length encodings", 1966; Rice,
-/// "Some Practical Universal Noiseless Coding Techniques", 1979), which is within 0.03 bits of the
-/// entropy of geometrically distributed numbers, as the gaps between sorted random places are.
+/// "Some Practical Universal Noiseless Coding Techniques", 1979), which is within 0.03 to 0.13
+/// bits of the entropy of geometrically distributed numbers, as gaps between sorted random places
+/// are.
 namespace saker::objects {
 
 /// Bits into bytes, the lowest bit first.

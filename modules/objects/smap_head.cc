@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/config.h"
 #include "core/error.h"
@@ -43,6 +44,20 @@ struct TakeFields {
     value = static_cast<T>(taken);
   }
 };
+
+/// What is shown to people and written into other files.
+std::string take_name(BitReader& in) {
+  std::string name = in.take_text();
+  for (const char c : name) {
+    if (static_cast<std::uint8_t>(c) < ' ') throw Error("a name with control characters");
+  }
+  try {
+    (void)nlohmann::json(name).dump();
+  } catch (const nlohmann::json::exception&) {
+    throw Error("a name that is not UTF-8");
+  }
+  return name;
+}
 
 void check(const SmapTile& tile, const SmapSteps& steps) {
   const double farthest = kFarthest_m / steps.tile_m() + 1;
@@ -95,12 +110,12 @@ SmapHead unpack_head(std::string_view bytes) {
   TakeFields fields{in};
   head.steps.visit(fields);
   head.steps = core::checked(head.steps, "steps");
-  head.frame = in.take_text();
+  head.frame = take_name(in);
   const std::uint64_t classes = in.take(32);
   if (classes > kMostClasses) throw Error("too many classes");
   for (std::uint64_t i = 0; i < classes; ++i) {
     const auto shape = static_cast<Shape>(in.take(kShapeBits));
-    head.classes.push_back({in.take_text(), shape});
+    head.classes.push_back({take_name(in), shape});
   }
   const std::uint64_t tiles = in.take(32);
   if (tiles > in.bits_left()) throw Error("its content ends too early");

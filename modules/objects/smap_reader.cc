@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kWord = 4;
 /// Fewer are not met; so a head that promises more cannot claim memory.
 constexpr std::size_t kLeastBytesOfAnObject = 4;
+constexpr std::int64_t kLargestId = 2000000000;
 /// Places in the list of objects of which the file says none: behind all that it says.
 constexpr std::int64_t kBehind = std::int64_t{1} << 40;
 
@@ -47,12 +48,13 @@ void sort_by(const std::vector<std::int64_t>& places, std::vector<T>& values) {
 
 /// Objects without identity follow those that have one.
 void number_the_others(const std::vector<std::int64_t>& places, std::vector<MapObject>& objects) {
-  int next = 0;
+  std::int64_t next = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (places[i] < kBehind) next = std::max(next, objects[i].id + 1);
+    if (places[i] < kBehind) next = std::max<std::int64_t>(next, objects[i].id + 1);
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (places[i] >= kBehind) objects[i].id = next + static_cast<int>(places[i] - kBehind);
+    if (places[i] < kBehind) continue;
+    objects[i].id = static_cast<int>(std::min(next + places[i] - kBehind, kLargestId));
   }
 }
 

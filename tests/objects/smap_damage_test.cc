@@ -18,8 +18,8 @@ namespace {
 
 const ClassTable kTable;
 
-ObjectMap some_map() {
-  ObjectMap map = made::large_map(600, 4);
+ObjectMap some_map(int count = 600) {
+  ObjectMap map = made::large_map(count, 4);
   for (MapObject& object : map.objects) {
     if (object.class_id == 1) object.covariance = Matrix9d(0.01 * Matrix9d::Identity());
     object.observations = object.id % 9;
@@ -32,6 +32,12 @@ ObjectMap some_map() {
 
 const std::string& good_file() {
   static const std::string bytes = to_smap(some_map(), kTable);
+  return bytes;
+}
+
+/// For thousands of tries.
+const std::string& small_file() {
+  static const std::string bytes = to_smap(some_map(60), kTable);
   return bytes;
 }
 
@@ -96,9 +102,10 @@ TEST(SmapDamage, WhereDetailsAreDamagedTheGeometryIsKept) {
 }
 
 TEST(SmapDamage, ADamagedHeadIsReadFromTheEnd) {
+  const std::string whole = to_json(read_of(good_file()).map, kTable);
   for (const std::size_t at : {0, 5, 9, 20, 60}) {
     const MapRead read = read_of(flipped(good_file(), at));
-    EXPECT_EQ(to_json(read.map, kTable), to_json(some_map(), kTable)) << at;
+    EXPECT_TRUE(to_json(read.map, kTable) == whole) << at;
     ASSERT_EQ(read.damage.size(), 1U);
     EXPECT_NE(read.damage[0].find("the copy at its end was read"), std::string::npos);
   }
@@ -115,9 +122,9 @@ TEST(SmapDamage, OfACutFileTheFirstTilesAreRead) {
 
 TEST(SmapDamage, AStrictReaderTakesNoDamageAtAll) {
   core::Rng rng(8);
-  const auto size = static_cast<int>(good_file().size());
+  const auto size = static_cast<int>(small_file().size());
   for (int i = 0; i < 3000; ++i) {
-    std::string bad = good_file();
+    std::string bad = small_file();
     const int at = rng.index(size);
     bad[static_cast<std::size_t>(at)] =
         static_cast<char>(bad[static_cast<std::size_t>(at)] ^ (1 << rng.index(8)));
@@ -125,7 +132,7 @@ TEST(SmapDamage, AStrictReaderTakesNoDamageAtAll) {
   }
   for (int i = 0; i < 300; ++i) {
     const auto cut = static_cast<std::size_t>(rng.index(size));
-    EXPECT_THROW((void)from_smap(good_file().substr(0, cut), kTable, "m.smap"), Error) << cut;
+    EXPECT_THROW((void)from_smap(small_file().substr(0, cut), kTable, "m.smap"), Error) << cut;
   }
 }
 
@@ -139,12 +146,12 @@ std::string resealed_part(const std::string& part, const std::function<void(std:
 /// The file with its parts and heads changed by `spoil`, and every checksum right again.
 std::string made_up(const std::function<void(std::string&)>& spoil_part,
                     const std::function<void(std::string&)>& spoil_head) {
-  SmapHead head = head_of(good_file());
-  std::size_t at = bytes_of(good_file());
+  SmapHead head = head_of(small_file());
+  std::size_t at = bytes_of(small_file());
   std::string tiles;
   for (const SmapTile& tile : head.tiles) {
     for (const std::int64_t bytes : {tile.geometry_bytes, tile.ground_bytes, tile.detail_bytes}) {
-      tiles += resealed_part(good_file().substr(at, static_cast<std::size_t>(bytes)), spoil_part);
+      tiles += resealed_part(small_file().substr(at, static_cast<std::size_t>(bytes)), spoil_part);
       at += static_cast<std::size_t>(bytes);
     }
   }
@@ -165,8 +172,8 @@ bool survives(const std::string& bytes) {
     const MapRead read = read_of(bytes);
     EXPECT_LE(read.map.objects.size(), bytes.size());
     // What was believed is a map like any other: it can be written, and read again.
-    EXPECT_EQ(from_json(to_json(read.map, kTable), kTable, "m.json").objects.size(),
-              read.map.objects.size());
+    const std::string json = to_json(read.map, kTable);
+    EXPECT_EQ(from_json(json, kTable, "m.json").objects.size(), read.map.objects.size());
     return true;
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);

@@ -53,6 +53,10 @@ Region box(double x0, double y0, double x1, double y1) {
   return {Eigen::Vector2d(x0, y0), Eigen::Vector2d(x1, y1)};
 }
 
+bool same(const ObjectMap& a, const ObjectMap& b) {
+  return to_json(a, kTable) == to_json(b, kTable);
+}
+
 MapRead read_of(const std::string& bytes, const Region& region = kEverywhere) {
   std::istringstream in(bytes);
   return SmapReader(in, "m.smap").read(kTable, region);
@@ -82,10 +86,9 @@ TEST(Smap, GeometryTakesNineBytesAnObjectAtMostAndIsWithinItsErrors) {
 
 TEST(Smap, EverythingComesBackAsTheJsonSaysIt) {
   ObjectMap map = with_details(centred_map(3000));
-  const std::string json = to_json(map, kTable);
+  const ObjectMap by_json = from_json(to_json(map, kTable), kTable, "m.json");
   const ObjectMap back = from_smap(to_smap(map, kTable), kTable, "m.smap");
-  EXPECT_EQ(to_json(back, kTable), json);
-  const ObjectMap by_json = from_json(json, kTable, "m.json");
+  EXPECT_TRUE(same(back, by_json));
   for (std::size_t i = 0; i < map.objects.size(); i += 50) {
     EXPECT_EQ(back.objects[i].covariance, by_json.objects[i].covariance);
     EXPECT_EQ(back.objects[i].class_probability, by_json.objects[i].class_probability);
@@ -121,7 +124,7 @@ TEST(Smap, ARegionIsReadWithoutTheRest) {
     const Region region = box(-60, -10, 20, 70);
     const MapRead part = read_of(bytes, region);
     EXPECT_GT(part.map.objects.size(), 50U);
-    EXPECT_EQ(to_json(part.map, kTable), to_json(clipped(all.map, region), kTable));
+    EXPECT_TRUE(same(part.map, clipped(all.map, region)));
     EXPECT_GT(all.tiles_decoded, 30U);
     EXPECT_LE(part.tiles_decoded, 4U);
     EXPECT_EQ(read_of(bytes, box(5000, 5000, 5100, 5100)).tiles_decoded, 0U);
@@ -142,7 +145,7 @@ TEST(Smap, BytesOutsideOfTheRegionsTilesAreNotTouched) {
   }
   const MapRead part = read_of(bad, region);
   EXPECT_TRUE(part.damage.empty());
-  EXPECT_EQ(to_json(part.map, kTable), to_json(read_of(good, region).map, kTable));
+  EXPECT_TRUE(same(part.map, read_of(good, region).map));
 }
 
 TEST(Smap, ObjectsWithoutIdentitiesAreNumberedAlikeInEveryRegion) {
@@ -174,7 +177,8 @@ TEST(Smap, ClassesAreFoundByTheirNames) {
   const std::string bytes = to_smap(map, kTable);
   ClassTable turned = kTable;
   std::reverse(turned.classes.begin(), turned.classes.end());
-  EXPECT_EQ(to_json(from_smap(bytes, turned, "m.smap"), turned), to_json(map, kTable));
+  EXPECT_TRUE(to_json(from_smap(bytes, turned, "m.smap"), turned) ==
+              to_json(from_smap(bytes, kTable, "m.smap"), kTable));
   ClassTable fewer = kTable;
   std::erase_if(fewer.classes, [](const ObjectClass& c) { return c.name == "pole"; });
   const std::string refusal = message([&] { (void)from_smap(bytes, fewer, "m.smap"); });
