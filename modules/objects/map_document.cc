@@ -7,15 +7,10 @@
 
 #include "core/error.h"
 #include "objects/measurement.h"
+#include "objects/object_numbers.h"
 
 namespace saker::objects {
 namespace {
-
-/// Six decimals: a micrometre, and the same value in both forms of a file.
-double rounded(double value) {
-  if (!std::isfinite(value)) throw Error("object map: a number is not finite");
-  return std::round(value * 1e6) / 1e6 + 0.0;  // + 0.0: no negative zero
-}
 
 template <class Vector>
 Document array(const Vector& values) {
@@ -24,9 +19,8 @@ Document array(const Vector& values) {
   return list;
 }
 
-Document standard_deviations(const MapObject& object) {
-  const Eigen::VectorXd sd = object.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  if (sd.size() == 9) {
+Document named(const CovarianceNumbers& sd, const Model& model) {
+  if (std::holds_alternative<Cuboid>(model)) {
     return {{"rotation", array(sd.segment<3>(0))},
             {"position", array(sd.segment<3>(3))},
             {"size", array(sd.segment<3>(6))}};
@@ -36,26 +30,11 @@ Document standard_deviations(const MapObject& object) {
           {"radius", rounded(sd[5])}};
 }
 
-/// Upper triangle of the planar part, row by row.
-Document correlations(const MapObject& object) {
-  const std::vector<int> rows = planar_rows(object.model);
-  const Eigen::MatrixXd P = object.covariance(rows, rows);
-  Document list = Document::array();
-  for (Eigen::Index i = 0; i < P.rows(); ++i) {
-    for (Eigen::Index j = i + 1; j < P.cols(); ++j) {
-      const double scale = std::sqrt(P(i, i) * P(j, j));
-      list.push_back(rounded(scale > 0 ? std::clamp(P(i, j) / scale, -1.0, 1.0) : 0));
-    }
-  }
-  return list;
-}
-
 void add_model(Document& entry, const Cuboid& cuboid) {
-  Eigen::Quaterniond q(cuboid.pose.linear());
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  entry["position"] = array(cuboid.pose.translation());
-  entry["rotation"] = array(q.coeffs());
-  entry["size"] = array(cuboid.size);
+  const CuboidNumbers values = numbers(cuboid);
+  entry["position"] = array(values.segment<3>(0));
+  entry["rotation"] = array(values.segment<4>(3));
+  entry["size"] = array(values.segment<3>(7));
 }
 
 void add_model(Document& entry, const Cylinder& cylinder) {
@@ -65,20 +44,16 @@ void add_model(Document& entry, const Cylinder& cylinder) {
   entry["height"] = rounded(cylinder.height);
 }
 
-double probability_of(const MapObject& object) {
-  if (object.class_id >= object.class_probability.size()) return 1;
-  return object.class_probability[object.class_id];
-}
-
 Document object_document(const MapObject& object, const ClassTable& table) {
   Document entry = {{"id", object.id},
                     {"class", table[object.class_id].name},
                     {"probability", rounded(probability_of(object))},
                     {"observations", object.observations}};
   std::visit([&](const auto& model) { add_model(entry, model); }, object.model);
-  if (object.covariance.size() > 0 && object.covariance.allFinite()) {
-    entry["sd"] = standard_deviations(object);
-    entry["correlation"] = correlations(object);
+  if (has_covariance(object)) {
+    const CovarianceNumbers values = covariance_numbers(object);
+    entry["sd"] = named(values, object.model);
+    entry["correlation"] = array(values.tail(correlations(object.model)));
   }
   if (object.points >= 0) entry["points"] = object.points;
   return entry;
@@ -108,7 +83,7 @@ class Node {
     return nodes;
   }
 
-  [[nodiscard]] double number(double low = -1e9, double high = 1e9) const {
+  [[nodiscard]] double number(double low = -kFarthest_m, double high = kFarthest_m) const {
     if (!value_.is_number()) fail("a number");
     const double number = value_.get<double>();
     if (!(number >= low && number <= high)) fail(fmt::format("{} … {}", low, high));
@@ -125,13 +100,19 @@ class Node {
     return value_.get<std::string>();
   }
 
-  template <int N>
-  [[nodiscard]] Eigen::Matrix<double, N, 1> vector(double low = -1e9, double high = 1e9) const {
+  [[nodiscard]] Eigen::VectorXd vector(Eigen::Index size, double low, double high) const {
     const std::vector<Node> nodes = elements();
-    if (nodes.size() != N) fail(fmt::format("{} numbers", N));
-    Eigen::Matrix<double, N, 1> values;
-    for (int i = 0; i < N; ++i) values[i] = nodes[static_cast<std::size_t>(i)].number(low, high);
+    if (static_cast<Eigen::Index>(nodes.size()) != size) fail(fmt::format("{} numbers", size));
+    Eigen::VectorXd values(size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      values[i] = nodes[static_cast<std::size_t>(i)].number(low, high);
     return values;
+  }
+
+  template <int N>
+  [[nodiscard]] Eigen::Matrix<double, N, 1> vector(double low = -kFarthest_m,
+                                                   double high = kFarthest_m) const {
+    return vector(N, low, high);
   }
 
   /// A vector of length 1, up to what rounding leaves.
@@ -139,7 +120,7 @@ class Node {
   [[nodiscard]] Eigen::Matrix<double, N, 1> unit() const {
     const Eigen::Matrix<double, N, 1> values = vector<N>();
     if (std::abs(values.norm() - 1) > 1e-3) fail("a vector of length 1");
-    return values.normalized();
+    return values;
   }
 
   [[noreturn]] void fail(const std::string& expected) const {
@@ -151,60 +132,34 @@ class Node {
   std::string path_;
 };
 
-constexpr double kLargestObject = 1000;  // m: what is larger is a wrong unit
-
-Cuboid cuboid_of(const Node& entry) {
-  Cuboid cuboid;
-  const Eigen::Vector4d q = entry.at("rotation").unit<4>();
-  cuboid.pose.linear() = Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
-  cuboid.pose.translation() = entry.at("position").vector<3>();
-  cuboid.size = entry.at("size").vector<3>(0, kLargestObject);
-  return cuboid;
+Cuboid read_cuboid(const Node& entry) {
+  return cuboid_of((CuboidNumbers() << entry.at("position").vector<3>(),
+                    entry.at("rotation").unit<4>(), entry.at("size").vector<3>(0, kLargestObject_m))
+                       .finished());
 }
 
-Cylinder cylinder_of(const Node& entry) {
-  return {entry.at("root").vector<3>(), entry.at("axis").unit<3>(),
-          entry.at("radius").number(0, kLargestObject),
-          entry.at("height").number(0, kLargestObject)};
+Cylinder read_cylinder(const Node& entry) {
+  return cylinder_of((CylinderNumbers() << entry.at("root").vector<3>(), entry.at("axis").unit<3>(),
+                      entry.at("radius").number(0, kLargestObject_m),
+                      entry.at("height").number(0, kLargestObject_m))
+                         .finished());
 }
 
-Eigen::MatrixXd covariance_of(const Node& sd, Shape shape) {
-  if (shape == Shape::cuboid) {
-    Vector9d values;
-    values.segment<3>(0) = sd.at("rotation").vector<3>(0);
-    values.segment<3>(3) = sd.at("position").vector<3>(0);
-    values.segment<3>(6) = sd.at("size").vector<3>(0);
-    return values.cwiseAbs2().asDiagonal();
+/// Correlations that are not there are 0.
+CovarianceNumbers read_covariance(const Node& entry, const Model& model) {
+  CovarianceNumbers values = CovarianceNumbers::Zero(deviations(model) + correlations(model));
+  const Node sd = entry.at("sd");
+  if (std::holds_alternative<Cuboid>(model)) {
+    values.head<9>() << sd.at("rotation").vector<3>(0), sd.at("position").vector<3>(0),
+        sd.at("size").vector<3>(0);
+  } else {
+    values.head<6>() << sd.at("root").vector<3>(0), sd.at("axis").vector<2>(0),
+        sd.at("radius").number(0);
   }
-  Vector6d values;
-  values.segment<3>(0) = sd.at("root").vector<3>(0);
-  values.segment<2>(3) = sd.at("axis").vector<2>(0);
-  values[5] = sd.at("radius").number(0);
-  return values.cwiseAbs2().asDiagonal();
-}
-
-void add_correlations(const Node& list, const Model& model, Eigen::MatrixXd& covariance) {
-  const std::vector<int> rows = planar_rows(model);
-  const std::vector<Node> values = list.elements();
-  const std::size_t pairs = rows.size() * (rows.size() - 1) / 2;
-  if (values.size() != pairs) list.fail(fmt::format("{} numbers", pairs));
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = i + 1; j < rows.size(); ++j) {
-      const double sd_sd = std::sqrt(covariance(rows[i], rows[i]) * covariance(rows[j], rows[j]));
-      covariance(rows[i], rows[j]) = values[next++].number(-1, 1) * sd_sd;
-      covariance(rows[j], rows[i]) = covariance(rows[i], rows[j]);
-    }
+  if (entry.has("correlation")) {
+    values.tail(correlations(model)) = entry.at("correlation").vector(correlations(model), -1, 1);
   }
-}
-
-/// What the file does not say is spread evenly over the other classes.
-std::vector<double> spread(double probability, ClassId id, const ClassTable& table) {
-  const auto count = static_cast<std::size_t>(table.size());
-  std::vector<double> all(
-      count, (1 - probability) / static_cast<double>(std::max<std::size_t>(count - 1, 1)));
-  all[id] = probability;
-  return all;
+  return values;
 }
 
 MapObject object_of(const Node& entry, const ClassTable& table) {
@@ -222,13 +177,13 @@ MapObject object_of(const Node& entry, const ClassTable& table) {
   object.observations = entry.at("observations").integer();
   object.class_probability = spread(entry.at("probability").number(0, 1), object.class_id, table);
   if (shape == Shape::cuboid) {
-    object.model = cuboid_of(entry);
+    object.model = read_cuboid(entry);
   } else {
-    object.model = cylinder_of(entry);
+    object.model = read_cylinder(entry);
   }
-  if (entry.has("sd")) object.covariance = covariance_of(entry.at("sd"), shape);
-  if (entry.has("sd") && entry.has("correlation"))
-    add_correlations(entry.at("correlation"), object.model, object.covariance);
+  if (entry.has("sd")) {
+    object.covariance = covariance_of(object.model, read_covariance(entry, object.model));
+  }
   if (entry.has("points")) object.points = entry.at("points").integer();
   return object;
 }
@@ -258,8 +213,8 @@ ObjectMap from_document(const Document& document, const ClassTable& table,
     map.objects.push_back(object_of(entry, table));
   }
   for (const Node& entry : root.at("ground").elements()) {
-    map.ground.push_back({entry.at("normal").unit<3>(), entry.at("point").vector<3>(),
-                          entry.at("radius").number(0, kLargestObject)});
+    map.ground.push_back({entry.at("normal").unit<3>().normalized(), entry.at("point").vector<3>(),
+                          entry.at("radius").number(0, kLargestObject_m)});
   }
   return map;
 }

@@ -2,38 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "objects/map_document.h"
+#include "objects/map_export.h"
 
 namespace saker::objects {
 namespace {
 
-constexpr char kMagic[] = "SMAP";
-constexpr std::size_t kMagicSize = 4, kWord = 4, kHeaderSize = kMagicSize + 2 * kWord;
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kDocumentVersion = 1;
 
-/// CRC-32 of IEEE 802.3, as in zip files.
-std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t crc = 0xFFFFFFFFU;
-  for (const char byte : bytes) {
-    crc ^= static_cast<std::uint8_t>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0);
+ObjectMap from_version_1(const std::string& bytes, const ClassTable& table,
+                         const std::string& file) {
+  Document document;
+  try {
+    document = Document::from_cbor(content_of(bytes));
+  } catch (const Document::exception& error) {
+    throw Error(fmt::format("{}: not a map: {}", file, error.what()));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file, error.what()));
   }
-  return ~crc;
+  return from_document(document, table, file);
 }
 
-std::string word(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(value >> shift));
+bool is_version_1(const std::string& bytes) {
+  return bytes.size() >= kFrameBytes && bytes.starts_with(kSmapMagic) &&
+         version_of(bytes) == kDocumentVersion;
+}
+
+/// By its first bytes; where those are damaged, by its name.
+bool is_smap(const std::string& beginning, const std::filesystem::path& file) {
+  return beginning.starts_with(kSmapMagic) ||
+         (file.extension() == ".smap" && !beginning.starts_with('{'));
+}
+
+std::string beginning_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes(kFrameBytes, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
   return bytes;
-}
-
-std::uint32_t word_at(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = kWord; i-- > 0;)
-    value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
-  return value;
 }
 
 }  // namespace
@@ -52,50 +63,72 @@ ObjectMap from_json(const std::string& text, const ClassTable& table, const std:
   return from_document(document, table, file);
 }
 
-std::string to_smap(const ObjectMap& map, const ClassTable& table) {
-  const std::vector<std::uint8_t> packed = Document::to_cbor(to_document(map, table));
-  const std::string body(packed.begin(), packed.end());
-  return kMagic + word(kVersion) + word(static_cast<std::uint32_t>(body.size())) + body +
-         word(checksum(body));
+std::string to_smap(const ObjectMap& map, const ClassTable& table, SmapContent content) {
+  return pack_smap(map, table, content);
 }
 
 ObjectMap from_smap(const std::string& bytes, const ClassTable& table, const std::string& file) {
-  if (bytes.size() < kHeaderSize + kWord || !bytes.starts_with(kMagic)) {
-    throw Error(fmt::format("{}: {} bytes, expected a .smap file", file, bytes.size()));
-  }
-  const std::uint32_t version = word_at(bytes, kMagicSize);
-  if (version != kVersion) {
-    throw Error(fmt::format("{}: .smap version {}, expected {}", file, version, kVersion));
-  }
-  const std::size_t expected = kHeaderSize + word_at(bytes, kMagicSize + kWord) + kWord;
-  if (bytes.size() != expected) {
-    throw Error(fmt::format("{}: {} bytes, expected {} (cut?)", file, bytes.size(), expected));
-  }
-  const std::string body = bytes.substr(kHeaderSize, bytes.size() - kHeaderSize - kWord);
-  if (checksum(body) != word_at(bytes, bytes.size() - kWord)) {
-    throw Error(fmt::format("{}: wrong checksum, the file is damaged", file));
-  }
-  try {
-    return from_document(Document::from_cbor(body), table, file);
-  } catch (const Document::exception& error) {
-    throw Error(fmt::format("{}: not a map: {}", file, error.what()));
-  }
+  if (is_version_1(bytes)) return from_version_1(bytes, table, file);
+  std::istringstream in(bytes);
+  MapRead read = SmapReader(in, file).read(table);
+  if (!read.damage.empty()) throw Error(read.damage.front());
+  return std::move(read.map);
 }
 
 ObjectMap read_map(const std::filesystem::path& file, const ClassTable& table) {
   const std::string bytes = core::read_file(file);
-  return bytes.starts_with(kMagic) ? from_smap(bytes, table, file.string())
-                                   : from_json(bytes, table, file.string());
+  return is_smap(bytes, file) ? from_smap(bytes, table, file.string())
+                              : from_json(bytes, table, file.string());
 }
 
-void write_map(const std::filesystem::path& file, const ObjectMap& map, const ClassTable& table) {
-  const std::string ending = file.extension().string();
-  if (ending != ".json" && ending != ".smap") {
-    throw Error(
-        fmt::format("cannot write {}: expected a name that ends in .json or .smap", file.string()));
+MapRead read_map_part(const std::filesystem::path& file, const ClassTable& table,
+                      const Region& region) {
+  const std::string beginning = beginning_of(file);
+  if (!is_smap(beginning, file) || (beginning.starts_with(kSmapMagic) && is_version_1(beginning))) {
+    return {.map = clipped(read_map(file, table), region), .damage = {}};
   }
-  const std::string bytes = ending == ".smap" ? to_smap(map, table) : to_json(map, table);
-  core::write_file(file, bytes);
+  std::ifstream in(file, std::ios::binary);
+  return SmapReader(in, file.string()).read(table, region);
+}
+
+std::optional<SmapLayout> smap_layout(const std::filesystem::path& file) {
+  const std::string beginning = beginning_of(file);
+  if (!is_smap(beginning, file)) return std::nullopt;
+  if (is_version_1(beginning)) {
+    return SmapLayout{.version = kDocumentVersion, .bytes = std::filesystem::file_size(file)};
+  }
+  std::ifstream in(file, std::ios::binary);
+  const SmapReader reader(in, file.string());
+  SmapLayout layout{.version = kSmapVersion,
+                    .bytes = reader.bytes(),
+                    .head_bytes = reader.head_bytes(),
+                    .tiles = reader.head().tiles.size(),
+                    .tile_m = reader.head().steps.tile_m()};
+  for (const SmapTile& tile : reader.head().tiles) {
+    layout.geometry_bytes += tile.geometry_bytes;
+    layout.ground_bytes += tile.ground_bytes;
+    layout.detail_bytes += tile.detail_bytes;
+  }
+  return layout;
+}
+
+void write_map(const std::filesystem::path& file, const ObjectMap& map, const ClassTable& table,
+               const MapFormat& format) {
+  const std::string ending = file.extension().string();
+  if (ending == ".json") return core::write_file(file, to_json(map, table));
+  if (ending == ".smap") return core::write_file(file, to_smap(map, table, format.content));
+  if (ending == ".csv") return core::write_file(file, to_csv(map, table));
+  if (ending == ".ply") return core::write_file(file, to_ply(map, table));
+  if (ending == ".geojson" && format.origin) {
+    return core::write_file(file, to_geojson(map, table, *format.origin));
+  }
+  if (ending == ".geojson") {
+    throw Error(
+        fmt::format("cannot write {}: needs the map's origin (--origin LAT,LON)", file.string()));
+  }
+  throw Error(fmt::format(
+      "cannot write {}: expected a name that ends in .csv, .geojson, .ply, .json or .smap",
+      file.string()));
 }
 
 }  // namespace saker::objects

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "objects/class_table.h"
+#include "objects/geodesy.h"
 #include "objects/object_map.h"
+#include "objects/smap.h"
 
 /// Object maps in files: JSON for people and scripts, `.smap` for everything else. Both hold the
 /// same.
@@ -23,15 +26,41 @@ namespace saker::objects {
 [[nodiscard]] ObjectMap from_json(const std::string& text, const ClassTable& table,
                                   const std::string& file);
 
-/// `.smap`: "SMAP", version, length, the map, CRC-32; little-endian.
-[[nodiscard]] std::string to_smap(const ObjectMap& map, const ClassTable& table);
+/// `.smap` version 2 (smap.h); version 1, the JSON's document as CBOR, can still be read.
+[[nodiscard]] std::string to_smap(const ObjectMap& map, const ClassTable& table,
+                                  SmapContent content = SmapContent::everything);
+/// Throws Error where anything of it is damaged.
 [[nodiscard]] ObjectMap from_smap(const std::string& bytes, const ClassTable& table,
                                   const std::string& file);
 
 /// The form follows the content, not the name of the file.
 [[nodiscard]] ObjectMap read_map(const std::filesystem::path& file, const ClassTable& table);
 
-/// The form follows the ending: `.json` or `.smap`.
-void write_map(const std::filesystem::path& file, const ObjectMap& map, const ClassTable& table);
+/// What lies in `region` and is whole: of a `.smap` no more than that is read, and its damage is
+/// told instead of thrown.
+[[nodiscard]] MapRead read_map_part(const std::filesystem::path& file, const ClassTable& table,
+                                    const Region& region);
+
+/// What a `.smap` is made of.
+struct SmapLayout {
+  std::uint32_t version = 0;
+  std::size_t bytes = 0, head_bytes = 0;  ///< of the file, of one of its heads
+  std::size_t tiles = 0;
+  double tile_m = 0;
+  std::int64_t geometry_bytes = 0, ground_bytes = 0, detail_bytes = 0;
+};
+
+/// None where the file is no `.smap`. Of version 1 there is nothing but its bytes.
+[[nodiscard]] std::optional<SmapLayout> smap_layout(const std::filesystem::path& file);
+
+struct MapFormat {
+  SmapContent content = SmapContent::everything;  ///< of a `.smap`
+  std::optional<GeoOrigin> origin;                ///< of a `.geojson`, which needs one
+};
+
+/// The form follows the ending: `.json`, `.smap` and, for other programs, `.csv`, `.geojson` and
+/// `.ply` (map_export.h).
+void write_map(const std::filesystem::path& file, const ObjectMap& map, const ClassTable& table,
+               const MapFormat& format = {});
 
 }  // namespace saker::objects

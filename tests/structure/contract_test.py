@@ -56,7 +56,7 @@ def documented():
         options = set(re.findall(r"--[a-z-]+", line))
         if re.search(r"(?<!\S)-o\b", line):
             options |= WITH_OUT
-        rest = re.sub(r"\[?-{1,2}[a-z-]+(?: [A-Za-z|.]+)?\]?", "", line[len(command):])
+        rest = re.sub(r"\[?-{1,2}[a-z-]+(?: [A-Za-z|.,]+)?\]?", "", line[len(command):])
         table[tuple(command.split())] = (set(re.findall(r"[A-Z]+", rest)), options | EVERYWHERE)
     return table
 

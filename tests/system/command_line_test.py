@@ -4,6 +4,8 @@ import unittest
 
 from program import ROOT, ProgramTest, saker
 
+MAP = ROOT / "tests/objects/version_1.json"
+
 
 class CommandLine(ProgramTest):
     def test_the_default_configuration_in_the_repository_is_the_one_in_the_program(self):
@@ -52,6 +54,27 @@ class CommandLine(ProgramTest):
         for command in (["info", bad], ["eval", bad, bad], ["convert", bad, self.folder / "b.smap"]):
             with self.subTest(command=command[0]):
                 self.assertIn("bad.json", self.refused("map", *command))
+
+    def test_a_map_goes_into_every_form(self):
+        for form in ("json", "smap", "csv", "ply", "geojson"):
+            with self.subTest(form=form):
+                run = saker("map", "convert", MAP, self.folder / f"m.{form}", "--origin", "48.1,-11.6")
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual((self.folder / "m.json").read_bytes(), MAP.read_bytes())
+        self.assertIn("--origin", self.refused("map", "convert", MAP, self.folder / "n.geojson"))
+        self.assertIn(".geojson", self.refused("map", "convert", MAP, self.folder / "n.txt"))
+        self.assertIn("--region", self.refused("map", "convert", MAP, self.folder / "n.json", "--region", "1,2,0,3"))
+
+    def test_what_is_whole_of_a_damaged_map_is_kept(self):
+        saker("map", "convert", MAP, self.folder / "m.smap", "--compact")
+        damaged = bytearray((self.folder / "m.smap").read_bytes())
+        damaged[6] ^= 1
+        (self.folder / "m.smap").write_bytes(damaged)
+        run = saker("map", "convert", self.folder / "m.smap", self.folder / "n.csv")
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.assertEqual(len((self.folder / "n.csv").read_text().splitlines()), 3)
+        self.assertIn("m.smap", self.refused("map", "eval", self.folder / "m.smap", MAP))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iostream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "objects/comparison.h"
 #include "objects/consistency.h"
 #include "objects/map_io.h"
@@ -21,6 +23,10 @@ struct MapOptions {
   std::string first, second;
   bool json = false;
   bool force = false;
+  bool compact = false;
+  std::vector<double> region;  ///< least x and y, most x and y
+  std::vector<double> origin;  ///< latitude, longitude
+  double heading_deg = 90;
   objects::ComparisonOptions comparison;
 };
 
@@ -28,7 +34,30 @@ objects::ClassTable classes(const CommonOptions& common) {
   return read_configuration(common).autonomy.objects;
 }
 
+/// One line on stderr where parts of the file could not be read. \return the exit status
+int tell_damage(const char* command, const std::vector<std::string>& damage) {
+  if (damage.empty()) return 0;
+  std::cerr << fmt::format("{}: {}", command, damage.front());
+  if (damage.size() > 1) std::cerr << fmt::format(" (and {} more)", damage.size() - 1);
+  std::cerr << "\n";
+  return 1;
+}
+
 // saker map info
+
+std::string describe(const objects::SmapLayout& layout, std::size_t objects) {
+  std::string line = fmt::format(".smap version {}, {} bytes", layout.version, layout.bytes);
+  if (layout.version == 1) return line + "\n";
+  line += fmt::format(": heads 2 x {}, {} tiles of {:.0f} m: geometry {}, ground {}, details {}\n",
+                      layout.head_bytes, layout.tiles, layout.tile_m, layout.geometry_bytes,
+                      layout.ground_bytes, layout.detail_bytes);
+  if (objects == 0) return line;
+  const double count = static_cast<double>(objects);
+  return line + fmt::format("bytes an object  {:.2f} in all, {:.2f} geometry, {:.2f} details\n",
+                            static_cast<double>(layout.bytes) / count,
+                            static_cast<double>(layout.geometry_bytes) / count,
+                            static_cast<double>(layout.detail_bytes) / count);
+}
 
 std::string describe(const objects::MapObject& object, const objects::ClassTable& table) {
   const Eigen::Vector3d at = objects::place(object.model);
@@ -47,24 +76,47 @@ std::string describe(const objects::MapObject& object, const objects::ClassTable
 
 int info(const MapOptions& options, const CommonOptions& common) {
   const objects::ClassTable table = classes(common);
-  const objects::ObjectMap map = objects::read_map(options.first, table);
+  const objects::MapRead read = objects::read_map_part(options.first, table, objects::kEverywhere);
+  const objects::ObjectMap& map = read.map;
   std::map<std::string, int> counts;
   for (const auto& object : map.objects) ++counts[table[object.class_id].name];
   std::cout << fmt::format("frame {}, {} objects, {} ground planes\n", map.frame,
                            map.objects.size(), map.ground.size());
+  if (const auto layout = objects::smap_layout(options.first)) {
+    std::cout << describe(*layout, map.objects.size());
+  }
   for (const auto& [name, count] : counts) std::cout << fmt::format("{:8}  {}\n", name, count);
   std::cout << "   id  class     prob   obs  place (m)\n";
   for (const auto& object : map.objects) std::cout << describe(object, table);
-  return 0;
+  return tell_damage("saker map info", read.damage);
 }
 
 // saker map convert
 
+objects::Region region_of(const MapOptions& options) {
+  if (options.region.empty()) return objects::kEverywhere;
+  const Eigen::Map<const Eigen::Vector4d> corners(options.region.data());
+  const objects::Region region(corners.head<2>(), corners.tail<2>());
+  if (!region.isEmpty()) return region;
+  throw Error(fmt::format("--region {}: expected XMIN,YMIN,XMAX,YMAX with the least first",
+                          fmt::join(options.region, ",")));
+}
+
+objects::MapFormat format_of(const MapOptions& options) {
+  objects::MapFormat format;
+  if (options.compact) format.content = objects::SmapContent::geometry;
+  if (!options.origin.empty()) {
+    format.origin = {options.origin[0], options.origin[1], options.heading_deg};
+  }
+  return format;
+}
+
 int convert(const MapOptions& options, const CommonOptions& common) {
   const objects::ClassTable table = classes(common);
-  const objects::ObjectMap map = objects::read_map(options.first, table);
-  objects::write_map(output_file(options.second, options.force), map, table);
-  return 0;
+  const objects::MapRead read = objects::read_map_part(options.first, table, region_of(options));
+  objects::write_map(output_file(options.second, options.force), read.map, table,
+                     format_of(options));
+  return tell_damage("saker map convert", read.damage);
 }
 
 // saker map eval
@@ -144,6 +196,28 @@ int eval(const MapOptions& options, const CommonOptions& common) {
   return 0;
 }
 
+void add_conversion(CLI::App& app, MapOptions& options) {
+  app.add_option(
+         "--region", options.region,
+         "XMIN,YMIN,XMAX,YMAX: only what lies in there, m in the map's frame; of a .smap no "
+         "more is read")
+      ->delimiter(',')
+      ->expected(4);
+  app.add_flag("--compact", options.compact,
+               "a .smap without identities, covariances and history: places within 1.8 cm, sizes "
+               "1.5 cm, radii 0.5 cm, headings 0.5 degrees");
+  CLI::Option* origin =
+      app.add_option("--origin", options.origin,
+                     "LAT,LON: of the map's origin, degrees (WGS 84); a .geojson needs it")
+          ->delimiter(',')
+          ->expected(2);
+  app.add_option("--heading", options.heading_deg,
+                 "of the map's x axis for a .geojson, degrees clockwise from north; 90: x is east")
+      ->needs(origin)
+      ->capture_default_str();
+  app.add_flag("--force", options.force, "replace a file that is there");
+}
+
 }  // namespace
 
 void add_map(Commands& commands) {
@@ -163,14 +237,14 @@ void add_map(Commands& commands) {
   CLI::App& convert_app =
       commands.add(group,
                    {.name = "convert",
-                    .does = "from .json to .smap or back; the endings decide",
+                    .does = "a .json or .smap into one of them or into .csv, .geojson or .ply; "
+                            "the ending decides",
                     .output = Output::none,
                     .example = "saker map convert out/map.smap map.json"},
                    [options](const CommonOptions& common) { return convert(*options, common); });
   convert_app.add_option("A", options->first, "map to read")->required();
   convert_app.add_option("B", options->second, "file to write")->required();
-
-  convert_app.add_flag("--force", options->force, "replace a file that is there");
+  add_conversion(convert_app, *options);
 
   CLI::App& eval_app = commands.add(
       group,
