@@ -94,9 +94,8 @@ std::optional<Message> holdings_of(ByteReader& in, bool asks) {
   return message;
 }
 
-std::optional<Message> chunk_of(ByteReader& in, bool asks) {
-  ChunkMessage message{.asks = asks};
-  message.round = static_cast<std::uint32_t>(in.varint());
+std::optional<Message> chunk_of(ByteReader& in) {
+  ChunkMessage message;
   if (!read(in, message.id)) return std::nullopt;
   message.offset = in.varint();
   message.bytes = in.raw(in.rest());
@@ -119,8 +118,7 @@ std::string to_bytes(const HoldingsMessage& message) {
 
 std::string to_bytes(const ChunkMessage& message) {
   ByteWriter out;
-  out.byte(static_cast<std::uint8_t>(kChunk | (message.asks ? kAsks : 0)));
-  out.varint(message.round);
+  out.byte(kChunk);
   write(message.id, out);
   out.varint(message.offset);
   out.raw(message.bytes);
@@ -136,15 +134,9 @@ std::size_t size_of(const Holding& line) {
 std::optional<Message> message_of(std::string_view bytes) {
   ByteReader in(bytes);
   const std::uint8_t head = in.byte();
-  const bool asks = (head & kAsks) != 0;
-  switch (head & ~kAsks) {
-    case kHoldings:
-      return holdings_of(in, asks);
-    case kChunk:
-      return chunk_of(in, asks);
-    default:
-      return std::nullopt;
-  }
+  if (head == kChunk) return chunk_of(in);
+  if ((head & ~kAsks) == kHoldings) return holdings_of(in, (head & kAsks) != 0);
+  return std::nullopt;
 }
 
 }  // namespace saker::exchange

@@ -34,8 +34,6 @@ struct HoldingsMessage {
 };
 
 struct ChunkMessage {
-  bool asks = false;        ///< for the counterpart's holdings of this stream
-  std::uint32_t round = 0;  ///< of the sender
   StreamId id{};
   std::size_t offset = 0;  ///< in the stream
   std::string bytes{};     ///< within one chunk

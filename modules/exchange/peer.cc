@@ -5,8 +5,6 @@
 namespace saker::exchange {
 namespace {
 
-// The last chunks of a round all ask, so that a lost one costs no time-out.
-constexpr std::size_t kAskers = 3;
 // Of a holdings message before its lines.
 constexpr std::size_t kHead = 16;
 // What a silent link may save up of its rate.
@@ -65,6 +63,7 @@ void Peer::take(Time now, const HoldingsMessage& holdings) {
 }
 
 void Peer::take(Time now, const ChunkMessage& chunk) {
+  if (remotes_.size() >= Store::kMostStreams && !remotes_.contains(chunk.id)) return;
   Remote& remote = remotes_[chunk.id];
   remote.held.merge({.contiguous = chunk.offset + chunk.bytes.size(), .beyond = {}});
   const Kept kept =
@@ -79,14 +78,11 @@ void Peer::take(Time now, const ChunkMessage& chunk) {
     ++counters_.refused;
     unkept_.insert(chunk.id);
   }
-  if (chunk.asks) {
-    to_answer_.insert(chunk.id);
-    answer_later(now, chunk.round);
-  }
-  if (answer_pending_) answer_due_ = now + answer_delay_;
+  if (answer_pending_) answer_due_ = now + answer_delay_;  // the question overtook it
 }
 
 void Peer::learn(Time now, const Holding& line) {
+  if (remotes_.size() >= Store::kMostStreams && !remotes_.contains(line.id)) return;
   Remote& remote = remotes_[line.id];
   remote.held.merge(line.held);
   if (line.refused) remote.refused_until = now + from_seconds(config_.refused_again_s);
@@ -125,7 +121,8 @@ std::optional<std::string> Peer::next(Time now, std::size_t framing) {
   const double rate = 1000 * config_.rate_kb_s;
   tokens_ = std::min(tokens_ + rate * to_seconds(now - tokens_at_), rate * kSavedUp_s);
   tokens_at_ = now;
-  if (tokens_ < 0 || spent_ >= 1000 * config_.budget_kb) return std::nullopt;
+  const bool spent = in_contact(now) && spent_ >= 1000 * config_.budget_kb;
+  if (tokens_ < 0 || spent) return std::nullopt;
   std::optional<std::string> message = due(now);
   if (message) {
     const double bytes = static_cast<double>(message->size() + framing);
@@ -152,19 +149,26 @@ std::optional<std::string> Peer::due_call(Time now) {
 
 std::optional<std::string> Peer::due_answer(Time now) {
   if (!answer_pending_ || now < answer_due_) return std::nullopt;
-  HoldingsMessage message{.answers = answered_round_};
-  std::size_t size = kHead;
-  while (!to_answer_.empty()) {
-    Holding line = holding(*to_answer_.begin());
-    size += size_of(line);
-    if (size > kLongestMessage) break;
+  const HoldingsMessage message{.answers = answered_round_, .lines = holdings(to_answer_)};
+  for (const Holding& line : message.lines) {
+    to_answer_.erase(line.id);
     unkept_.erase(line.id);
-    message.lines.push_back(std::move(line));
-    to_answer_.erase(to_answer_.begin());
   }
   answer_pending_ = !to_answer_.empty();
   if (!answer_pending_) answered_round_ = 0;
   return to_bytes(message);
+}
+
+std::vector<Holding> Peer::holdings(const std::set<StreamId>& ids) {
+  std::vector<Holding> lines;
+  std::size_t size = kHead;
+  for (const StreamId& id : ids) {
+    Holding line = holding(id);
+    size += size_of(line);
+    if (size > kLongestMessage) break;
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 Holding Peer::holding(const StreamId& id) {
@@ -180,14 +184,12 @@ bool Peer::begin_round(Time now) { return ask_unknown() || send_missing(now); }
 
 /// Of streams whose copy over there is not known, nothing is sent before it is.
 bool Peer::ask_unknown() {
-  Round round{.number = rounds_ + 1};
-  std::size_t size = kHead;
+  std::set<StreamId> unknown;
   for (const auto& [id, own] : store_.extents()) {
-    if (remotes_.contains(id)) continue;
-    size += size_of(holding(id));
-    if (size > kLongestMessage) break;
-    round.streams.insert(id);
+    if (!remotes_.contains(id)) unknown.insert(id);
   }
+  Round round{.number = rounds_ + 1};
+  for (const Holding& line : holdings(unknown)) round.streams.insert(line.id);
   if (round.streams.empty()) return false;
   rounds_ = round.number;
   round_ = std::move(round);
@@ -205,10 +207,6 @@ bool Peer::send_missing(Time now) {
     std::vector<ChunkMessage> chunks = missing(id, remotes_.at(id).held);
     if (chunks.empty()) continue;
     ++rounds_;
-    for (ChunkMessage& chunk : chunks) chunk.round = rounds_;
-    for (std::size_t i = 0; i < std::min(kAskers, chunks.size()); ++i) {
-      chunks[chunks.size() - 1 - i].asks = true;
-    }
     std::reverse(chunks.begin(), chunks.end());
     round_ = Round{.number = rounds_, .streams = {id}, .chunks = std::move(chunks)};
     return true;
@@ -228,7 +226,7 @@ std::vector<ChunkMessage> Peer::missing(const StreamId& id, const Extent& held) 
     if (has >= end) continue;
     const std::string bytes = store_.chunk(id, k);
     if (bytes.size() < end) break;  // cannot be read
-    chunks.push_back({.id = id, .offset = begin + has, .bytes = bytes.substr(has, end - has)});
+    chunks.push_back({id, begin + has, bytes.substr(has, end - has)});
   }
   return chunks;
 }
@@ -238,10 +236,6 @@ std::optional<std::string> Peer::due_in_round(Time now) {
   if (!round.chunks.empty()) {
     const ChunkMessage chunk = std::move(round.chunks.back());
     round.chunks.pop_back();
-    if (chunk.asks) {
-      round.asked = now;
-      round.asked_times = 1;
-    }
     ++counters_.chunks_sent;
     return to_bytes(chunk);
   }
@@ -252,9 +246,8 @@ std::optional<std::string> Peer::due_in_round(Time now) {
 std::string Peer::ask(Time now) {
   round_->asked = now;
   ++round_->asked_times;
-  HoldingsMessage message{.asks = true, .round = round_->number};
-  for (const StreamId& id : round_->streams) message.lines.push_back(holding(id));
-  return to_bytes(message);
+  return to_bytes(
+      HoldingsMessage{.asks = true, .round = round_->number, .lines = holdings(round_->streams)});
 }
 
 /// RFC 6298, but never shorter than what the counterpart waits anyway; doubles with every try.

@@ -30,7 +30,7 @@ struct PeerConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("rate_kb_s", rate_kb_s, {0.1, 1e5}, "kB/s",
+    v.field("rate_kb_s", rate_kb_s, {1, 1e5}, "kB/s",
             "sent to one counterpart at most: a tenth of a slow Wi-Fi link, commands share it");
     v.field("budget_kb", budget_kb, {1, 1e9}, "kB",
             "sent to one counterpart at most while it is in reach; a flight is 0.2 MB");
@@ -58,11 +58,11 @@ enum class Role { calls, answers };
 /// bytes. Both ends are the same but for who calls first.
 ///
 /// Messages in and out are plain bytes of at most kLongestMessage, `now` is given: no sockets, no
-/// clock. Rounds: up to `round_chunks` chunks of one stream that the counterpart lacks, the last
-/// ones ask for its holdings (the acknowledgement); only what the answer to this round lacks is
-/// sent again. An answer that does not come is asked for again, not the chunks. All that has to
-/// survive an end's death is in its store. Source: selective repeat with polling, as in RFC 3366
-/// section 3; the time-out is RFC 6298's.
+/// clock. Rounds: up to `round_chunks` chunks of one stream that the counterpart lacks, then a
+/// question for its holdings (the answer is the acknowledgement); only what the answer to this
+/// round lacks is sent again. An answer that does not come is asked for again, not the chunks. All
+/// that has to survive an end's death is in its store. Source: selective repeat with polling as in
+/// LTE's radio link control (3GPP TS 36.322, section 5.2); the time-out is RFC 6298's.
 class Peer {
  public:
   struct Counters {
@@ -127,6 +127,8 @@ class Peer {
   [[nodiscard]] std::vector<ChunkMessage> missing(const StreamId& id, const Extent& held) const;
   [[nodiscard]] std::string ask(Time now);
   [[nodiscard]] Holding holding(const StreamId& id);
+  /// As many of them as fit into a message.
+  [[nodiscard]] std::vector<Holding> holdings(const std::set<StreamId>& ids);
   void close_round(Time now);
   [[nodiscard]] Time timeout() const;
   [[nodiscard]] bool wanted(Time now, const StreamId& id, const Extent& own) const;

@@ -65,4 +65,19 @@ std::string MemoryStore::load(const StreamId& id, int chunk) const {
   return found == stream->second.end() ? "" : found->second;
 }
 
+std::uint32_t newest_version(const Store& store, const std::string& robot, StreamKind kind) {
+  std::uint32_t newest = 0;
+  for (const auto& [id, extent] : store.extents()) {
+    if (id.robot == robot && id.kind == kind) newest = std::max(newest, id.version);
+  }
+  return newest;
+}
+
+std::uint32_t publish(Store& store, const std::string& robot, StreamKind kind,
+                      std::string_view bytes) {
+  const std::uint32_t newest = newest_version(store, robot, kind);
+  if (newest > 0 && store.bytes({robot, kind, newest}) == bytes) return newest;
+  return store.append({robot, kind, newest + 1}, bytes) ? newest + 1 : 0;
+}
+
 }  // namespace saker::exchange

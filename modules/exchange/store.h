@@ -71,4 +71,13 @@ class MemoryStore : public Store {
   std::map<StreamId, std::map<int, std::string>> chunks_;
 };
 
+/// The newest version of one kind of a robot's streams; 0 where there is none.
+[[nodiscard]] std::uint32_t newest_version(const Store& store, const std::string& robot,
+                                           StreamKind kind);
+
+/// A whole file as a stream: a new version unless the newest one holds these bytes already. The
+/// version; 0 where it could not be kept.
+std::uint32_t publish(Store& store, const std::string& robot, StreamKind kind,
+                      std::string_view bytes);
+
 }  // namespace saker::exchange

@@ -1,0 +1,289 @@
+#include "exchange/packed_history.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "core/rng.h"
+#include "exchange/packed_covariance.h"
+
+namespace saker::exchange {
+namespace {
+
+using objects::Cuboid;
+using objects::Cylinder;
+using objects::Measurement;
+
+constexpr int kClasses = 5;
+
+Eigen::Vector3d some_vector(core::Rng& rng, double size) {
+  return {rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size)};
+}
+
+Eigen::MatrixXd some_covariance(core::Rng& rng, int rows) {
+  Eigen::MatrixXd A(rows, rows);
+  for (double& a : A.reshaped()) a = rng.normal();
+  const Eigen::MatrixXd mixed = A * A.transpose() + Eigen::MatrixXd::Identity(rows, rows);
+  Eigen::VectorXd sd(rows);
+  for (double& s : sd) s = std::exp2(rng.uniform(-8, 0));
+  const Eigen::VectorXd unit = mixed.diagonal().cwiseSqrt().cwiseInverse().cwiseProduct(sd);
+  return unit.asDiagonal() * mixed * unit.asDiagonal();
+}
+
+std::vector<double> some_probabilities(core::Rng& rng, objects::ClassId likely) {
+  std::vector<double> p(kClasses, 0.0);
+  p[likely] = rng.uniform(0.6, 1);
+  p[0] += 1 - p[likely];
+  return p;
+}
+
+Measurement some_measurement(core::Rng& rng, Time stamp, bool cuboid) {
+  Measurement m;
+  m.stamp = stamp;
+  m.class_id = cuboid ? 1 : 2;
+  m.class_probability = some_probabilities(rng, m.class_id);
+  m.points = rng.index(3000);
+  if (cuboid) {
+    Cuboid model;
+    model.pose.linear() = core::so3_exp({0.05, -0.03, rng.uniform(-3, 3)});
+    model.pose.translation() = some_vector(rng, 20);
+    model.size = {rng.uniform(3, 6), rng.uniform(1.5, 2.5), rng.uniform(1.3, 2)};
+    m.model = model;
+    m.front_log_odds = rng.uniform(-5, 5);
+    m.length_sd = rng.uniform(0.05, 0.5);
+    m.covariance = some_covariance(rng, 9);
+  } else {
+    const Eigen::Vector3d axis(rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), 1);
+    m.model = Cylinder{some_vector(rng, 20), axis.normalized(), rng.uniform(0.05, 0.4),
+                       rng.uniform(1, 8)};
+    m.reflectivity = rng.uniform();
+    m.view_cell = rng.index(500);
+    m.covariance = some_covariance(rng, 6);
+  }
+  return m;
+}
+
+/// A flight around: a keyframe a second.
+slam::History some_history(int entries, int measurements, std::uint64_t seed) {
+  core::Rng rng(seed);
+  slam::History history{"R1", 3, {}};
+  SE3 T = SE3::Identity();
+  for (int i = 0; i < entries; ++i) {
+    slam::HistoryEntry entry;
+    entry.stamp = from_seconds(1000 + i + rng.uniform(0, 0.1));
+    T = T * core::se3_exp((Vector6d() << some_vector(rng, 0.3), some_vector(rng, 2)).finished());
+    entry.T_odom_lidar = T;
+    if (i > 0) entry.motion_covariance = 1e-4 * some_covariance(rng, 6);
+    for (int k = 0; k < measurements; ++k) {
+      entry.measurements.push_back(some_measurement(rng, entry.stamp, rng.chance(0.5)));
+    }
+    history.entries.push_back(entry);
+  }
+  return history;
+}
+
+slam::History there_and_back(const slam::History& history) {
+  return unpacked(packed(history, kClasses)).value().history;
+}
+
+double angle(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return core::so3_log(a.transpose() * b).norm();
+}
+
+constexpr double kHundredthDegree = 1.7453e-4;
+const double kHalfDiagonal = std::sqrt(3.0) / 2;  // of a cube of one step: the largest error
+
+TEST(PackedHistory, PosesAreRightToAMillimetreHoweverLongTheFlight) {
+  const slam::History before = some_history(2000, 0, 1), after = there_and_back(before);
+  ASSERT_EQ(after.entries.size(), before.entries.size());
+  EXPECT_EQ(after.robot, "R1");
+  EXPECT_EQ(after.flight, 3u);
+  for (std::size_t i = 0; i < before.entries.size(); ++i) {
+    const SE3 &T = before.entries[i].T_odom_lidar, &U = after.entries[i].T_odom_lidar;
+    EXPECT_LT((T.translation() - U.translation()).norm(), kHalfDiagonal * 1e-3 + 1e-9);
+    EXPECT_LT(angle(T.rotation(), U.rotation()), 1.1 * kHalfDiagonal * kHundredthDegree);
+    EXPECT_LT(std::abs(before.entries[i].stamp - after.entries[i].stamp), 1000);
+  }
+}
+
+void expect_close(const Cuboid& a, const Cuboid& b) {
+  EXPECT_LT((a.pose.translation() - b.pose.translation()).norm(), kHalfDiagonal * 1e-3 + 1e-9);
+  EXPECT_LT(angle(a.pose.rotation(), b.pose.rotation()), 2 * kHundredthDegree);
+  EXPECT_LT((a.size - b.size).cwiseAbs().maxCoeff(), 0.005 + 1e-9);
+}
+
+void expect_close(const Cylinder& a, const Cylinder& b) {
+  EXPECT_LT((a.root - b.root).norm(), kHalfDiagonal * 1e-3 + 1e-9);
+  EXPECT_LT((a.axis - b.axis).norm(), 1e-3);
+  EXPECT_NEAR(a.radius, b.radius, 0.0005 + 1e-9);
+  EXPECT_NEAR(a.height, b.height, 0.005 + 1e-9);
+}
+
+void expect_close(const Measurement& a, const Measurement& b) {
+  ASSERT_EQ(a.model.index(), b.model.index());
+  if (const auto* cuboid = std::get_if<Cuboid>(&a.model)) {
+    expect_close(*cuboid, std::get<Cuboid>(b.model));
+  } else {
+    expect_close(std::get<Cylinder>(a.model), std::get<Cylinder>(b.model));
+  }
+  EXPECT_EQ(a.class_id, b.class_id);
+  for (int c = 0; c < kClasses; ++c) {
+    EXPECT_NEAR(a.class_probability[c], b.class_probability[c], 1.5 / 64);
+  }
+  EXPECT_NEAR(a.front_log_odds, b.front_log_odds, 1.0 / 16);
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.view_cell, b.view_cell);
+  EXPECT_EQ(a.moving, b.moving);
+  EXPECT_EQ(std::isnan(a.reflectivity), std::isnan(b.reflectivity));
+  if (!std::isnan(a.reflectivity)) {
+    EXPECT_NEAR(a.reflectivity, b.reflectivity, 1.0 / 500);
+  }
+  EXPECT_EQ(std::isnan(a.length_sd), std::isnan(b.length_sd));
+  if (!std::isnan(a.length_sd)) {
+    EXPECT_NEAR(b.length_sd / a.length_sd, 1, 0.045);
+  }
+}
+
+TEST(PackedHistory, MeasurementsAreRightToTheirSteps) {
+  slam::History before = some_history(100, 4, 2);
+  before.entries[7].measurements[1].moving = true;
+  before.entries[8].measurements[2].stamp -= from_seconds(0.25);
+  const slam::History after = there_and_back(before);
+  for (std::size_t i = 0; i < before.entries.size(); ++i) {
+    ASSERT_EQ(before.entries[i].measurements.size(), after.entries[i].measurements.size());
+    for (std::size_t k = 0; k < before.entries[i].measurements.size(); ++k) {
+      expect_close(before.entries[i].measurements[k], after.entries[i].measurements[k]);
+    }
+  }
+  EXPECT_LT(
+      std::abs(after.entries[8].measurements[2].stamp - before.entries[8].measurements[2].stamp),
+      1000);
+}
+
+TEST(PackedHistory, AnEntryMoreOnlyAppendsBytes) {
+  slam::History history = some_history(50, 3, 3);
+  const std::string whole = packed(history, kClasses);
+  while (!history.entries.empty()) {
+    history.entries.pop_back();
+    EXPECT_TRUE(whole.starts_with(packed(history, kClasses)));
+  }
+}
+
+TEST(PackedHistory, ACutEndCostsTheCutEntryOnly) {
+  const slam::History history = some_history(5, 2, 4);
+  HistoryPacker packer("R1", 3, kClasses);
+  std::vector<std::size_t> ends = {packer.header().size()};
+  for (const auto& entry : history.entries) ends.push_back(ends.back() + packer.pack(entry).size());
+  const std::string whole = packed(history, kClasses);
+  ASSERT_EQ(whole.size(), ends.back());
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    const auto found = unpacked(whole.substr(0, size));
+    ASSERT_EQ(found.has_value(), size >= ends[0]) << size;
+    if (!found) continue;
+    const auto entries = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), size) -
+                                                  ends.begin() - 1);
+    EXPECT_EQ(found->history.entries.size(), entries);
+    EXPECT_EQ(found->bytes, ends[entries]);
+  }
+}
+
+TEST(PackedHistory, WhatIsNotFiniteIsLeftOutAndCounted) {
+  slam::History history = some_history(3, 4, 5);
+  auto& measurements = history.entries[1].measurements;
+  std::visit([](auto& model) { model = {}; }, measurements[0].model);  // NaN
+  measurements[1].class_probability.pop_back();
+  measurements[2].covariance(2, 2) = -1;
+  HistoryPacker packer("R1", 3, kClasses);
+  std::string bytes = packer.header();
+  for (const auto& entry : history.entries) bytes += packer.pack(entry);
+  EXPECT_EQ(packer.left_out(), 3);
+  EXPECT_EQ(unpacked(bytes)->history.entries[1].measurements.size(), 1u);
+  slam::HistoryEntry no_pose = history.entries[2];
+  no_pose.stamp += 1'000'000;
+  no_pose.T_odom_lidar.translation().x() = NAN;
+  EXPECT_EQ(packer.pack(no_pose), "");
+  EXPECT_EQ(packer.pack(history.entries[0]), "");  // older than the last one
+}
+
+TEST(PackedHistory, ChangedBytesNeverGiveWhatIsNotFinite) {
+  const std::string whole = packed(some_history(20, 3, 6), kClasses);
+  core::Rng rng(1);
+  for (int round = 0; round < 20'000; ++round) {
+    std::string bytes = whole.substr(0, 1 + rng.index(static_cast<int>(whole.size())));
+    for (int i = 0; i <= rng.index(4); ++i) {
+      bytes[rng.index(static_cast<int>(bytes.size()))] = static_cast<char>(rng.index(256));
+    }
+    const auto found = unpacked(bytes);
+    if (!found) continue;
+    ASSERT_LE(found->bytes, bytes.size());
+    for (const auto& entry : found->history.entries) {
+      ASSERT_TRUE(entry.T_odom_lidar.matrix().allFinite());
+      for (const Measurement& m : entry.measurements) {
+        ASSERT_TRUE(m.covariance.allFinite());
+        ASSERT_TRUE(objects::place(m.model).allFinite());
+        ASSERT_LT(m.class_id, m.class_probability.size());
+      }
+    }
+  }
+}
+
+/// The bar: ten minutes, a keyframe a second, in 200 kB; four objects in each, with
+/// correlations everywhere, as never occur.
+TEST(PackedHistory, TenMinutesFitInto200Kilobytes) {
+  EXPECT_LT(packed(some_history(600, 4, 7), kClasses).size(), 200'000u);
+}
+
+TEST(PackedCovariance, StandardDeviationsAreRightToFivePercentAndTheMatrixIsPositiveDefinite) {
+  core::Rng rng(1);
+  for (int round = 0; round < 500; ++round) {
+    const int rows = rng.chance(0.5) ? 6 : 9;
+    const Eigen::MatrixXd covariance = some_covariance(rng, rows);
+    ByteWriter out;
+    pack(covariance, out);
+    ByteReader in(out.bytes());
+    const Eigen::MatrixXd back = unpacked_covariance(rows, in);
+    EXPECT_TRUE(in.done());
+    EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(back).info(), Eigen::Success);
+    for (int i = 0; i < rows; ++i) {
+      EXPECT_NEAR(std::sqrt(back(i, i) / covariance(i, i)), 1, 0.045);
+      for (int k = 0; k < i; ++k) {
+        const double a = covariance(i, k) / std::sqrt(covariance(i, i) * covariance(k, k));
+        const double b = back(i, k) / std::sqrt(back(i, i) * back(k, k));
+        EXPECT_NEAR(a, b, 0.15);
+      }
+    }
+  }
+}
+
+/// What a merged graph weighs: the squared length of an error in units of its sd.
+TEST(PackedCovariance, WeighsErrorsAsTheOriginalWithinAFifth) {
+  core::Rng rng(2);
+  double ratio = 0;
+  constexpr int kRounds = 500;
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::MatrixXd covariance = some_covariance(rng, 6);
+    ByteWriter out;
+    pack(covariance, out);
+    ByteReader in(out.bytes());
+    const Eigen::MatrixXd back = unpacked_covariance(6, in);
+    ratio += (back.inverse() * covariance).trace() / 6 / kRounds;  // mean NEES a degree of freedom
+  }
+  EXPECT_NEAR(ratio, 1, 0.2);
+}
+
+TEST(PackedCovariance, AnyBytesGiveASymmetricFiniteMatrix) {
+  core::Rng rng(3);
+  for (int round = 0; round < 5000; ++round) {
+    std::string bytes(40, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(rng.index(256));
+    ByteReader in(bytes);
+    const Eigen::MatrixXd back = unpacked_covariance(9, in);
+    ASSERT_TRUE(back.allFinite());
+    ASSERT_TRUE(back.isApprox(back.transpose()));
+    ASSERT_GT(back.diagonal().minCoeff(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace saker::exchange
