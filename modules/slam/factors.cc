@@ -36,6 +36,20 @@ bool OdometryFactor::Evaluate(double const* const* parameters, double* residuals
   return true;
 }
 
+PoseFactor::PoseFactor(const SE3& T, const Matrix6d& covariance)
+    : T_inverse_(T.inverse()), whitening_(whitening<6>(covariance)) {}
+
+bool PoseFactor::Evaluate(double const* const* parameters, double* residuals,
+                          double** jacobians) const {
+  const Vector6d error = core::se3_log(T_inverse_ * pose_from(parameters[0]));
+  Eigen::Map<Vector6d>{residuals} = whitening_ * error;
+  if (jacobians != nullptr && jacobians[0] != nullptr) {
+    JacobianMap<6, 7>{jacobians[0]} =
+        whitening_ * core::se3_right_jacobian_inverse(error) * pose_lift(parameters[0]);
+  }
+  return true;
+}
+
 CuboidFactor::CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance,
                            double shorter_weight)
     : T_measured_lidar_(measured.pose.inverse()),

@@ -24,6 +24,18 @@ class OdometryFactor final
   Matrix6d whitening_;
 };
 
+/// e = log(Z⁻¹ · T): what is known of a pose beforehand, Σ its right tangent's.
+class PoseFactor final : public ceres::SizedCostFunction<kPoseTangent, kPoseParameters> {
+ public:
+  PoseFactor(const SE3& T, const Matrix6d& covariance);
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  SE3 T_inverse_;
+  Matrix6d whitening_;
+};
+
 /// Equation 1: e = [log(H(z)⁻¹ · T_lidar_world · T_world_cuboid), d − d(z)], Σ in the measured
 /// cuboid's own frame.
 ///

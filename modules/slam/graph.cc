@@ -52,26 +52,28 @@ ceres::Problem::Options keep_ownership() {
   return options;
 }
 
+/// Keyframes of a chain that do not move.
+std::size_t held(const Chain& chain) {
+  return std::max<std::size_t>(chain.free_from, chain.prior ? 0 : 1);
+}
+
 /// Poses and landmarks as a Ceres problem. All parameters lie in one array in the order of
 /// keyframes and landmarks, so that nothing depends on addresses.
 class Graph {
  public:
-  /// \param movable keyframes, the newest; those before them, at least one, are held.
-  Graph(const std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
-        const GraphConfig& config, std::size_t movable)
+  Graph(Chains chains, std::span<Landmark* const> landmarks, const GraphConfig& config)
       : loss_(config.robust_scale),
         shorter_weight_(config.shorter_weight),
         problem_(keep_ownership()) {
-    reserve(keyframes, landmarks);
-    const std::size_t size = keyframes.size();
-    held_ = size > movable + 1 ? size - movable : std::min<std::size_t>(size, 1);
-    for (std::size_t k = 0; k < size; ++k) add_keyframe(keyframes, k);
-    for (std::size_t l = 0; l < landmarks.size(); ++l) add_landmark(keyframes, *landmarks[l], l);
+    reserve(chains, landmarks);
+    for (std::size_t c = 0; c < chains.size(); ++c) add_chain(chains[c], c);
+    for (std::size_t l = 0; l < landmarks.size(); ++l) add_landmark(chains, *landmarks[l], l);
   }
 
   [[nodiscard]] ceres::Problem& problem() { return problem_; }
-  [[nodiscard]] std::size_t held() const { return held_; }
-  [[nodiscard]] double* pose(std::size_t k) { return parameters_.data() + k * kPoseParameters; }
+  [[nodiscard]] double* pose(std::size_t chain, std::size_t k) {
+    return parameters_.data() + (first_pose_[chain] + k) * kPoseParameters;
+  }
   [[nodiscard]] double* landmark(std::size_t l) { return parameters_.data() + offsets_[l]; }
   [[nodiscard]] bool finite() const {
     return std::all_of(parameters_.begin(), parameters_.end(),
@@ -79,8 +81,13 @@ class Graph {
   }
 
  private:
-  void reserve(const std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks) {
-    std::size_t size = keyframes.size() * kPoseParameters;
+  void reserve(Chains chains, std::span<Landmark* const> landmarks) {
+    std::size_t poses = 0;
+    for (const Chain& chain : chains) {
+      first_pose_.push_back(poses);
+      poses += chain.keyframes->size();
+    }
+    std::size_t size = poses * kPoseParameters;
     for (const Landmark* landmark : landmarks) {
       offsets_.push_back(size);
       size += static_cast<std::size_t>(parameter_count(landmark->model));
@@ -88,20 +95,23 @@ class Graph {
     parameters_.assign(size, 0);
   }
 
-  void add_keyframe(const std::vector<Keyframe>& keyframes, std::size_t k) {
-    write_pose(keyframes[k].T_world_lidar, pose(k));
-    problem_.AddParameterBlock(pose(k), kPoseParameters, &pose_manifold_);
-    if (k < held_) {
-      problem_.SetParameterBlockConstant(pose(k));
-      return;
+  void add_chain(const Chain& chain, std::size_t c) {
+    const std::vector<Keyframe>& keyframes = *chain.keyframes;
+    for (std::size_t k = 0; k < keyframes.size(); ++k) {
+      write_pose(keyframes[k].T_world_lidar, pose(c, k));
+      problem_.AddParameterBlock(pose(c, k), kPoseParameters, &pose_manifold_);
+      if (k < held(chain)) problem_.SetParameterBlockConstant(pose(c, k));
+      if (k == 0 || k < held(chain)) continue;
+      const SE3 motion = keyframes[k - 1].T_odom_lidar.inverse() * keyframes[k].T_odom_lidar;
+      problem_.AddResidualBlock(new OdometryFactor(motion, keyframes[k].covariance), nullptr,
+                                pose(c, k - 1), pose(c, k));
     }
-    const SE3 motion = keyframes[k - 1].T_odom_lidar.inverse() * keyframes[k].T_odom_lidar;
-    problem_.AddResidualBlock(new OdometryFactor(motion, keyframes[k].covariance), nullptr,
-                              pose(k - 1), pose(k));
+    if (keyframes.empty() || held(chain) > 0) return;
+    problem_.AddResidualBlock(new PoseFactor(chain.prior->pose, chain.prior->covariance), nullptr,
+                              pose(c, 0));
   }
 
-  void add_landmark(const std::vector<Keyframe>& keyframes, const Landmark& landmark,
-                    std::size_t l) {
+  void add_landmark(Chains chains, const Landmark& landmark, std::size_t l) {
     double* parameters = this->landmark(l);
     write_model(landmark.model, parameters);
     ceres::Manifold* manifold = &cylinder_manifold_;
@@ -110,10 +120,11 @@ class Graph {
     const std::vector<double> weights = observation_weights(landmark);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const Observation& observation = landmark.observations[i];
-      const int k = observation.keyframe - keyframes.front().serial;
+      const auto c = static_cast<std::size_t>(observation.chain);
+      const int k = observation.keyframe - chains[c].keyframes->front().serial;
       if (k < 0) continue;
       problem_.AddResidualBlock(factor_of(observation).release(), weighted_loss(weights[i]),
-                                pose(static_cast<std::size_t>(k)), parameters);
+                                pose(c, static_cast<std::size_t>(k)), parameters);
     }
   }
 
@@ -136,8 +147,8 @@ class Graph {
   ceres::CauchyLoss loss_;
   std::vector<std::unique_ptr<ceres::ScaledLoss>> weighted_losses_;
   double shorter_weight_;
-  std::size_t held_ = 0;  ///< keyframes
   std::vector<double> parameters_;
+  std::vector<std::size_t> first_pose_;  ///< of each chain, among all
   std::vector<std::size_t> offsets_;
   ceres::Problem problem_;
 };
@@ -189,12 +200,13 @@ double robust_cost(const Model& model, std::span<const Weighted> all, double rob
 }
 
 /// All that was measured of a landmark, in the world frame by the estimated poses.
-std::vector<Weighted> all_in_world(const Landmark& landmark, const Trajectory& trajectory) {
+std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains) {
   const std::vector<double> weights = observation_weights(landmark);
   std::vector<Weighted> all;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const Observation& observation = landmark.observations[i];
-    const Keyframe* keyframe = trajectory.find(observation.keyframe);
+    const Chain& chain = chains[static_cast<std::size_t>(observation.chain)];
+    const Keyframe* keyframe = find(*chain.keyframes, observation.keyframe);
     if (keyframe == nullptr) continue;
     all.push_back(
         {transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured), weights[i]});
@@ -222,11 +234,13 @@ constexpr int kRefineSteps = 5;
 
 }  // namespace
 
-SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
+SolveReport solve_graph(Chains chains, std::span<Landmark* const> landmarks,
                         const GraphConfig& config, const core::Budget& budget) {
   SolveReport report;
-  if (keyframes.size() < 2 || config.iterations == 0 || budget.used_up(0)) return report;
-  Graph graph(keyframes, landmarks, config, static_cast<std::size_t>(config.movable_keyframes));
+  const bool still = std::ranges::all_of(
+      chains, [](const Chain& chain) { return chain.keyframes->size() <= held(chain); });
+  if (still || config.iterations == 0 || budget.used_up(0)) return report;
+  Graph graph(chains, landmarks, config);
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(config, budget), &graph.problem(), &summary);
   report.usable = summary.IsSolutionUsable() && graph.finite();
@@ -235,8 +249,11 @@ SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* co
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
   if (!report.usable) return report;
-  for (std::size_t k = graph.held(); k < keyframes.size(); ++k)
-    keyframes[k].T_world_lidar = pose_from(graph.pose(k));
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    std::vector<Keyframe>& keyframes = *chains[c].keyframes;
+    for (std::size_t k = held(chains[c]); k < keyframes.size(); ++k)
+      keyframes[k].T_world_lidar = pose_from(graph.pose(c, k));
+  }
   for (std::size_t l = 0; l < landmarks.size(); ++l)
     read_model(graph.landmark(l), landmarks[l]->model);
   return report;
@@ -260,9 +277,8 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
   }
 }
 
-void restart_if_better(Landmark& landmark, const Trajectory& trajectory,
-                       const GraphConfig& config) {
-  const std::vector<Weighted> all = all_in_world(landmark, trajectory);
+void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config) {
+  const std::vector<Weighted> all = all_in_world(landmark, chains);
   if (all.size() < 2) return;
   Model newest = all.back().measured.model;
   if (auto* cylinder = std::get_if<objects::Cylinder>(&newest)) {
@@ -272,11 +288,10 @@ void restart_if_better(Landmark& landmark, const Trajectory& trajectory,
   if (robust_cost(newest, all, config.robust_scale) < now) landmark.model = newest;
 }
 
-Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory,
-                       const GraphConfig& config) {
-  restart_if_better(landmark, trajectory, config);
+Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config) {
+  restart_if_better(landmark, chains, config);
   const Eigen::Index size = is_cuboid(landmark.model) ? kCuboidTangent : kCylinderTangent;
-  const std::vector<Weighted> all = all_in_world(landmark, trajectory);
+  const std::vector<Weighted> all = all_in_world(landmark, chains);
   NormalEquations sum;
   for (int step = 0; step < kRefineSteps; ++step) {
     sum = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
@@ -290,11 +305,21 @@ Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory,
   return sum.information.llt().solve(Eigen::MatrixXd::Identity(size, size));
 }
 
-CovarianceReport graph_covariance(const Trajectory& trajectory,
-                                  std::span<Landmark* const> landmarks,
+std::vector<double> robust_weights(const Landmark& landmark, Chains chains,
+                                   const GraphConfig& config) {
+  std::vector<double> weights;
+  for (const Weighted& observation : all_in_world(landmark, chains)) {
+    const Eigen::VectorXd error = difference(observation.measured.model, landmark.model);
+    const double squared = error.dot(observation.measured.covariance.llt().solve(error));
+    weights.push_back(1 / (1 + squared / (config.robust_scale * config.robust_scale)));
+  }
+  return weights;
+}
+
+CovarianceReport graph_covariance(Chains chains, std::span<Landmark* const> landmarks,
                                   std::span<const Landmark* const> wanted,
                                   const GraphConfig& config) {
-  Graph graph(trajectory.keyframes(), landmarks, config, trajectory.keyframes().size());
+  Graph graph(chains, landmarks, config);
   std::vector<std::pair<const double*, const double*>> blocks;
   for (const Landmark* landmark : wanted) {
     const auto at = std::find(landmarks.begin(), landmarks.end(), landmark);
@@ -308,7 +333,7 @@ CovarianceReport graph_covariance(const Trajectory& trajectory,
   report.marginal = !blocks.empty() && covariance.Compute(blocks, &graph.problem());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     Landmark copy = *wanted[i];
-    Eigen::MatrixXd result = refine(copy, trajectory, config);
+    Eigen::MatrixXd result = refine(copy, chains, config);
     if (report.marginal) {
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(result.rows(),
                                                                                    result.cols());

@@ -43,9 +43,10 @@ struct SolveReport {
   double initial_cost = 0, final_cost = 0;
 };
 
-/// Moves poses and believed landmarks to less cost; the first keyframe, or all that are too old to
-/// move, hold the frame. With a budget of no iterations nothing changes.
-SolveReport solve_graph(std::vector<Keyframe>& keyframes, std::span<Landmark* const> landmarks,
+/// Moves the chains' poses and the given landmarks to less cost; keyframes that a chain holds, or
+/// the first one of a chain without a prior, hold the frame. With a budget of no iterations nothing
+/// changes.
+SolveReport solve_graph(Chains chains, std::span<Landmark* const> landmarks,
                         const GraphConfig& config, const core::Budget& budget);
 
 /// Hands what was measured from keyframe `from` on to keyframe `to`, both held, as it weighs in the
@@ -57,10 +58,15 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
 /// the start after a merge. \return its covariance given the poses, in the landmark's own frame.
 /// The newest measurement is tried as a start too: a robust estimate that began at a part of a
 /// vehicle would never leave it.
-Eigen::MatrixXd refine(Landmark& landmark, const Trajectory& trajectory, const GraphConfig& config);
+Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config);
 
 /// Moves the estimate to its newest measurement where the robust cost of all is less there.
-void restart_if_better(Landmark& landmark, const Trajectory& trajectory, const GraphConfig& config);
+void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config);
+
+/// What the robust kernel leaves of each observation's weight, by the current estimate: 1 where
+/// they agree.
+[[nodiscard]] std::vector<double> robust_weights(const Landmark& landmark, Chains chains,
+                                                 const GraphConfig& config);
 
 struct CovarianceReport {
   std::vector<Eigen::MatrixXd>
@@ -69,9 +75,9 @@ struct CovarianceReport {
                          ///< not be computed
 };
 
-/// Covariances of `wanted` (a subset of `landmarks`) in the world frame, given the first pose only.
-[[nodiscard]] CovarianceReport graph_covariance(const Trajectory& trajectory,
-                                                std::span<Landmark* const> landmarks,
+/// Covariances of `wanted` (a subset of `landmarks`) in the world frame, given what the chains
+/// hold.
+[[nodiscard]] CovarianceReport graph_covariance(Chains chains, std::span<Landmark* const> landmarks,
                                                 std::span<const Landmark* const> wanted,
                                                 const GraphConfig& config);
 

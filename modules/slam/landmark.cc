@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <tuple>
 
 namespace saker::slam {
 namespace {
@@ -127,8 +127,8 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   fuse_front(landmark, turned(Eigen::Vector2d(front, 0), turn));
   fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
   landmark.log_odds += evidence(candidate.shape_probability, config);
-  remember(landmark,
-           {keyframe, turned_by(candidate.in_keyframe, turn), candidate.measurement->view_cell});
+  remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn),
+                      candidate.measurement->view_cell, 1, candidate.chain});
   if (is_cuboid(landmark.model)) {
     landmark.length_sd = std::min(landmark.length_sd, length_sd(*candidate.measurement));
   }
@@ -170,7 +170,7 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
 }
 
 void remember(Landmark& landmark, const Observation& observation) {
-  const auto key = [](const Observation& o) { return std::pair(o.keyframe, o.cell); };
+  const auto key = [](const Observation& o) { return std::tuple(o.chain, o.keyframe, o.cell); };
   auto& all = landmark.observations;
   const auto at = std::ranges::lower_bound(all, key(observation), {}, key);
   if (at != all.end() && key(*at) == key(observation)) {
@@ -249,6 +249,24 @@ int naming_turn(const Landmark& landmark) {
   const auto& cuboid = std::get<Cuboid>(landmark.model);
   if (cuboid.size.x() >= cuboid.size.y()) return landmark.front.x() >= 0 ? 0 : 2;
   return landmark.front.y() >= 0 ? 1 : 3;
+}
+
+objects::MapObject map_object(const Landmark& landmark, const objects::ClassTable& table) {
+  objects::MapObject object;
+  object.id = landmark.id;
+  object.class_id = class_of(landmark, table);
+  object.class_probability = class_probability(landmark);
+  object.observations = landmark.seen;
+  object.model = landmark.model;
+  if (is_cuboid(landmark.model)) {
+    object.model = turned(std::get<Cuboid>(landmark.model), naming_turn(landmark));
+  }
+  return object;
+}
+
+Eigen::MatrixXd named_covariance(const Landmark& landmark, const Eigen::MatrixXd& covariance) {
+  if (!is_cuboid(landmark.model) || covariance.size() == 0) return covariance;
+  return turned(Gaussian{landmark.model, covariance}, naming_turn(landmark)).covariance;
 }
 
 }  // namespace saker::slam

@@ -6,6 +6,7 @@
 #include "core/config.h"
 #include "core/time.h"
 #include "objects/measurement.h"
+#include "objects/object_map.h"
 #include "slam/model_algebra.h"
 #include "slam/trajectory.h"
 
@@ -81,6 +82,7 @@ struct Candidate {
   Model in_world;                ///< by the current estimate
   double distance = 0;           ///< from the lidar, m
   double shape_probability = 0;  ///< of all classes of its shape together
+  int chain = 0;                 ///< of the keyframe, among those of the graph
 };
 
 /// What one keyframe says about one object from one view cell; several measurements are fused.
@@ -90,6 +92,7 @@ struct Observation {
                       ///< cell: the windows' mean, as uncertain as one of them
   int cell = -1;      ///< Measurement::view_cell
   int windows = 1;    ///< that were measured
+  int chain = 0;      ///< of the keyframe, among those of the graph
 };
 
 /// Where a cuboid was measured in one window: its bottom, in the world frame as it was estimated
@@ -104,7 +107,7 @@ struct Footprint {
 struct Landmark {
   int id = -1;
   Model model;                            ///< world; the estimate
-  std::vector<Observation> observations;  ///< ascending keyframe
+  std::vector<Observation> observations;  ///< ascending chain and keyframe
   std::vector<double>
       class_log;        ///< of the fused class probability, one an entry of the class table
   double log_odds = 0;  ///< of an object against clutter
@@ -157,7 +160,8 @@ void join(Observation& a, const Observation& b);
 /// Takes over all that `other` knows: two candidates were one object.
 void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config);
 
-/// Keeps observations in the order of keyframes and cells, one each: two of the same are joined.
+/// Keeps observations in the order of chains, keyframes and cells, one each: two of the same are
+/// joined.
 void remember(Landmark& landmark, const Observation& observation);
 
 /// What each observation weighs: all windows from one view cell share their error and weigh as one
@@ -184,5 +188,11 @@ void remember(Landmark& landmark, const Observation& observation);
 /// Quarters that turn a cuboid's frame to its name: the longer edge is the length, x points to the
 /// front.
 [[nodiscard]] int naming_turn(const Landmark& landmark);
+
+/// The landmark as maps hold it, without a covariance; and its covariance by that name.
+[[nodiscard]] objects::MapObject map_object(const Landmark& landmark,
+                                            const objects::ClassTable& table);
+[[nodiscard]] Eigen::MatrixXd named_covariance(const Landmark& landmark,
+                                               const Eigen::MatrixXd& covariance);
 
 }  // namespace saker::slam

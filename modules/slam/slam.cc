@@ -63,6 +63,13 @@ SlamUpdate Slam::update(const SlamInput& input, const core::Budget& budget) {
   return report;
 }
 
+/// The trajectory in the graph: what is too old to move is held.
+Chain Slam::chain() {
+  const auto movable = static_cast<std::size_t>(config_.graph.movable_keyframes);
+  const std::size_t size = trajectory_.keyframes().size();
+  return {&trajectory_.keyframes(), std::nullopt, size > movable + 1 ? size - movable : 0};
+}
+
 void Slam::record() {
   const std::vector<Keyframe>& all = trajectory_.keyframes();
   if (all.size() < 2) return;
@@ -136,7 +143,8 @@ void Slam::take(Landmark& landmark, const Candidate& candidate) {
   } else {
     observe(landmark, candidate, keyframe, config_.landmarks);
     recorder_.measured(landmark, candidate, config_.landmarks);
-    restart_if_better(landmark, trajectory_, config_.graph);
+    const Chain own = chain();
+    restart_if_better(landmark, {&own, 1}, config_.graph);
   }
 }
 
@@ -172,32 +180,20 @@ void Slam::review(SlamUpdate& report) {
 }
 
 void Slam::optimise(const core::Budget& budget, SlamUpdate& report) {
+  const Chain own = chain();
   for (Landmark& landmark : landmarks_) {
     if (!landmark.moving && !believed(landmark, config_.landmarks))
-      refine(landmark, trajectory_, config_.graph);
+      refine(landmark, {&own, 1}, config_.graph);
   }
   const std::vector<Landmark*> in_graph = believed_ones(landmarks_, config_.landmarks);
   report.confirmed = static_cast<int>(in_graph.size());
-  report.solve = solve_graph(trajectory_.keyframes(), in_graph, config_.graph, budget);
-}
-
-objects::MapObject Slam::map_object(const Landmark& landmark) const {
-  objects::MapObject object;
-  object.id = landmark.id;
-  object.class_id = class_of(landmark, table_);
-  object.class_probability = class_probability(landmark);
-  object.observations = landmark.seen;
-  object.model = landmark.model;
-  if (is_cuboid(landmark.model)) {
-    object.model = turned(std::get<objects::Cuboid>(landmark.model), naming_turn(landmark));
-  }
-  return object;
+  report.solve = solve_graph({&own, 1}, in_graph, config_.graph, budget);
 }
 
 objects::ObjectMap Slam::map() const {
   objects::ObjectMap map;
   for (const Landmark& landmark : landmarks_) {
-    if (believed(landmark, config_.landmarks)) map.objects.push_back(map_object(landmark));
+    if (believed(landmark, config_.landmarks)) map.objects.push_back(map_object(landmark, table_));
   }
   map.ground = ground_.planes(trajectory_);
   return map;
@@ -216,20 +212,20 @@ Slam::MapWithCovariance Slam::map_with_covariance() const {
 }
 
 CovarianceReport Slam::covariance(std::span<const int> ids) const {
+  std::vector<Keyframe> poses = trajectory_.keyframes();
+  const Chain own{&poses};
   std::vector<Landmark> copies = landmarks_;
   const std::vector<Landmark*> in_graph = believed_ones(copies, config_.landmarks);
   std::vector<const Landmark*> wanted;
   for (const Landmark* landmark : in_graph) {
     if (std::find(ids.begin(), ids.end(), landmark->id) != ids.end()) wanted.push_back(landmark);
   }
-  const CovarianceReport of_wanted = graph_covariance(trajectory_, in_graph, wanted, config_.graph);
+  const CovarianceReport of_wanted = graph_covariance({&own, 1}, in_graph, wanted, config_.graph);
   CovarianceReport report{std::vector<Eigen::MatrixXd>(ids.size()), of_wanted.marginal};
   for (std::size_t w = 0; w < wanted.size(); ++w) {
-    Gaussian named{wanted[w]->model, of_wanted.covariances[w]};
-    if (is_cuboid(named.model) && named.covariance.size() > 0)
-      named = turned(named, naming_turn(*wanted[w]));
     const auto at = std::find(ids.begin(), ids.end(), wanted[w]->id);
-    report.covariances[static_cast<std::size_t>(at - ids.begin())] = named.covariance;
+    report.covariances[static_cast<std::size_t>(at - ids.begin())] =
+        named_covariance(*wanted[w], of_wanted.covariances[w]);
   }
   return report;
 }

@@ -16,6 +16,7 @@
 #include "slam/history_recorder.h"
 #include "slam/landmark.h"
 #include "slam/measurement_noise.h"
+#include "slam/merge_config.h"
 #include "slam/trajectory.h"
 
 namespace saker::slam {
@@ -35,6 +36,7 @@ struct SlamConfig {
   GraphConfig graph;
   GroundMapConfig ground;
   HistoryConfig history;
+  MergeConfig merge;
   NoiseSource measurement_noise = NoiseSource::fixed;
   MeasurementNoiseConfig noise;
 
@@ -47,6 +49,7 @@ struct SlamConfig {
     v.group("graph", graph, "the optimisation");
     v.group("ground", ground, "the map's local ground planes");
     v.group("history", history, "what other robots are told");
+    v.group("merge", merge, "several robots in one graph");
     v.field("measurement_noise", measurement_noise, "",
             "of measurements: fitted to flights (uncertainty.model), by where they are taken from, "
             "or fixed: what detection says");
@@ -138,6 +141,7 @@ class Slam {
   }
 
  private:
+  [[nodiscard]] Chain chain();
   void record();
   void retire();
   [[nodiscard]] std::vector<Candidate> accepted(const objects::Detections& detections,
@@ -147,7 +151,6 @@ class Slam {
   void expect(const std::vector<int>& measured);  ///< counts what was in view and not measured
   void review(SlamUpdate& report);
   void optimise(const core::Budget& budget, SlamUpdate& report);
-  [[nodiscard]] objects::MapObject map_object(const Landmark& landmark) const;
 
   SlamConfig config_;
   objects::ClassTable table_;

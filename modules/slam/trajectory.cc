@@ -21,6 +21,11 @@ Matrix6d floored(const Matrix6d& covariance, const KeyframeConfig& config) {
 
 }  // namespace
 
+const Keyframe* find(const std::vector<Keyframe>& keyframes, int serial) {
+  if (keyframes.empty() || serial < keyframes.front().serial) return nullptr;
+  return &keyframes[static_cast<std::size_t>(serial - keyframes.front().serial)];
+}
+
 Trajectory::Trajectory(const KeyframeConfig& config) : config_(config) {}
 
 bool Trajectory::advance(Time stamp, const SE3& T_odom_lidar, const Matrix6d& covariance) {
@@ -58,11 +63,6 @@ void Trajectory::add_keyframe(Time stamp, const SE3& T_odom_lidar) {
   keyframes_.push_back(keyframe);
   motion_ = SE3::Identity();
   motion_covariance_.setZero();
-}
-
-const Keyframe* Trajectory::find(int serial) const {
-  if (keyframes_.empty() || serial < keyframes_.front().serial) return nullptr;
-  return &keyframes_[static_cast<std::size_t>(serial - keyframes_.front().serial)];
 }
 
 SE3 Trajectory::T_world_odom() const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/config.h"
@@ -43,6 +44,24 @@ struct Keyframe {
       Matrix6d::Constant(NAN);  ///< of the motion since the previous keyframe, right tangent
 };
 
+/// A pose that is known with an uncertainty: right tangent at `pose`.
+struct PosePrior {
+  SE3 pose = SE3::Identity();
+  Matrix6d covariance = Matrix6d::Constant(NAN);
+};
+
+/// One flight's odometry in the graph. Observations name chains by their place among all.
+struct Chain {
+  std::vector<Keyframe>* keyframes = nullptr;     ///< ascending serial without gaps
+  std::optional<PosePrior> prior = std::nullopt;  ///< of the first keyframe; without, it is held,
+                                                  ///< and holds the frame
+  std::size_t free_from = 0;  ///< keyframes before this one are held as they are
+};
+using Chains = std::span<const Chain>;
+
+/// nullptr when it is no longer kept.
+[[nodiscard]] const Keyframe* find(const std::vector<Keyframe>& keyframes, int serial);
+
 /// The poses of the graph and the motion since the newest one.
 class Trajectory {
  public:
@@ -55,7 +74,7 @@ class Trajectory {
   [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return keyframes_; }
   [[nodiscard]] std::vector<Keyframe>& keyframes() { return keyframes_; }
   [[nodiscard]] const Keyframe& newest() const { return keyframes_.back(); }
-  [[nodiscard]] const Keyframe* find(int serial) const;  ///< nullptr when it is no longer kept
+  [[nodiscard]] const Keyframe* find(int serial) const { return slam::find(keyframes_, serial); }
 
   /// The keyframe that made room in the last step: what hangs on it is to be forgotten or fixed.
   [[nodiscard]] const std::optional<Keyframe>& retired() const { return retired_; }

@@ -139,6 +139,18 @@ TEST(Factors, OdometryGradient) {
   }
 }
 
+TEST(Factors, PoseGradient) {
+  const PoseManifold pose;
+  const SE3 known = pose_at(0.4, 3, -2);
+  for (const double error : {0.0, 1e-9, 1e-3, 0.8, 3.0}) {
+    const Vector6d step = error / 2 * (Vector6d() << 1, -1, 1.2, 0.3, 1, -1).finished();
+    const PoseFactor factor(known * core::se3_exp(step), some_covariance<6>());
+    const Parameters x = {pose_parameters(known), {}};
+    const Dense J = analytic(factor, pose, x, 0);
+    EXPECT_LT((J - by_differences(factor, pose, x, 0)).norm(), 1e-7 * J.norm());
+  }
+}
+
 TEST(Factors, CuboidGradient) {
   const PoseManifold pose;
   const CuboidManifold cuboid_manifold;

@@ -22,7 +22,7 @@ GraphConfig quadratic() {
 }
 
 /// Keyframes a second apart at one place, held together by odometry that is all but sure.
-Trajectory standing(int keyframes) {
+std::vector<Keyframe> standing(int keyframes) {
   KeyframeConfig config;
   config.interval_s = 1;
   config.rotation_floor_deg = 1e-4;
@@ -31,7 +31,7 @@ Trajectory standing(int keyframes) {
   for (int k = 0; k < keyframes; ++k) {
     trajectory.advance(from_seconds(k + 1), SE3::Identity(), 1e-16 * Matrix6d::Identity());
   }
-  return trajectory;
+  return trajectory.keyframes();
 }
 
 struct Window {
@@ -66,20 +66,23 @@ double length(const Landmark& landmark) { return std::get<Cuboid>(landmark.model
 
 TEST(ViewCell, EachCellIsWorthOneMeasurementHoweverManyWindows) {
   Landmark landmark = measured(two_cells());
-  const Eigen::MatrixXd P = refine(landmark, standing(3), quadratic());
+  std::vector<Keyframe> poses = standing(3);
+  const Chain chain{&poses};
+  const Eigen::MatrixXd P = refine(landmark, {&chain, 1}, quadratic());
   EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
   EXPECT_NEAR(P(6, 6), kVariance / 2, 1e-6);
   EXPECT_NEAR(P(3, 3), kVariance / 2, 1e-6);
 }
 
 TEST(ViewCell, TheGraphWeighsTheSame) {
-  Trajectory trajectory = standing(3);
+  std::vector<Keyframe> poses = standing(3);
+  const Chain chain{&poses};
   Landmark landmark = measured(two_cells());
   std::vector<Landmark*> landmarks = {&landmark};
-  (void)solve_graph(trajectory.keyframes(), landmarks, quadratic(), core::Budget::iterations(50));
+  (void)solve_graph({&chain, 1}, landmarks, quadratic(), core::Budget::iterations(50));
   EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
   const std::vector<const Landmark*> wanted = {&landmark};
-  const CovarianceReport report = graph_covariance(trajectory, landmarks, wanted, quadratic());
+  const CovarianceReport report = graph_covariance({&chain, 1}, landmarks, wanted, quadratic());
   ASSERT_TRUE(report.marginal);
   EXPECT_NEAR(report.covariances[0](6, 6), kVariance / 2, 1e-6);
 }
@@ -88,7 +91,9 @@ TEST(ViewCell, WithoutACellEveryWindowCounts) {
   std::vector<Window> windows = two_cells();
   for (Window& window : windows) window.cell = -1;
   Landmark landmark = measured(windows);
-  const Eigen::MatrixXd P = refine(landmark, standing(3), quadratic());
+  std::vector<Keyframe> poses = standing(3);
+  const Chain chain{&poses};
+  const Eigen::MatrixXd P = refine(landmark, {&chain, 1}, quadratic());
   EXPECT_NEAR(length(landmark), 27.0 / 6, 1e-6);
   EXPECT_NEAR(P(6, 6), kVariance / 6, 1e-6);
 }
@@ -100,17 +105,20 @@ TEST(ViewCell, AnOutlierOfACellStaysOne) {
   Landmark landmark = measured(windows);
   GraphConfig config = quadratic();
   config.robust_scale = 3;
-  (void)refine(landmark, standing(10), config);
+  std::vector<Keyframe> poses = standing(10);
+  const Chain chain{&poses};
+  (void)refine(landmark, {&chain, 1}, config);
   EXPECT_NEAR(length(landmark), 4.4, 0.02);
 }
 
 TEST(ViewCell, WhatIsHandedOverStaysInItsCell) {
   Landmark landmark = measured(two_cells());
-  const Trajectory trajectory = standing(3);
-  (void)refine(landmark, trajectory, quadratic());
-  hand_over(landmark, trajectory.keyframes()[1], trajectory.keyframes()[0], quadratic());
+  std::vector<Keyframe> poses = standing(3);
+  const Chain chain{&poses};
+  (void)refine(landmark, {&chain, 1}, quadratic());
+  hand_over(landmark, poses[1], poses[0], quadratic());
   EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.6, 0.4, 1}));
-  (void)refine(landmark, trajectory, quadratic());
+  (void)refine(landmark, {&chain, 1}, quadratic());
   EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
 }
 

@@ -9,6 +9,7 @@
 #include "objects/consistency.h"
 #include "objects/map_io.h"
 #include "saker/configuration.h"
+#include "saker/map_merge.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
 
@@ -171,6 +172,8 @@ void add_map(Commands& commands) {
   convert_app.add_option("B", options->second, "file to write")->required();
 
   convert_app.add_flag("--force", options->force, "replace a file that is there");
+
+  add_map_merge(commands, group);
 
   CLI::App& eval_app = commands.add(
       group,

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/budget.h"
+#include "slam/constellation.h"
+#include "slam/history.h"
+#include "slam/slam.h"
+
+namespace saker::slam {
+
+enum class MergeStatus {
+  merged,
+  nothing_new,  ///< the history has no entry that is not in the graph
+  not_aligned,  ///< nobody knows where it took off, and its map does not say so surely
+  invalid,      ///< an entry that is not finite, or older than the one before; nothing changed
+};
+
+/// What adding a history did.
+struct MergeReport {
+  MergeStatus status = MergeStatus::merged;
+  Alignment alignment;  ///< where the take-off pose was not known
+  int entries = 0;      ///< new keyframes
+  int matched = 0;      ///< measurements of objects that were in the map
+  int created = 0;      ///< objects that were not
+  int refused = 0;      ///< measurements that are not usable
+  int loops = 0;        ///< constellations that closed one
+  int split = 0;        ///< objects that one robot took for another's, told apart again
+  SolveReport solve;    ///< the last one, of the whole graph
+};
+
+/// One flight's trajectory in the merged graph.
+struct MergedFlight {
+  std::string robot;
+  std::uint32_t flight = 0;
+  std::optional<PosePrior> prior;  ///< of the first keyframe; the first flight without one holds
+                                   ///< the frame
+  std::vector<Keyframe> keyframes;
+};
+
+/// Several robots' flights in one graph: reads histories, makes one map and every trajectory.
+///
+/// Frame: that of the take-off poses given; without any, the first flight's own.
+///
+/// Method: the paper, "Multi-robot Semantic SLAM": an odometry chain a flight, everybody's
+/// measurements associated as a robot's own. A take-off pose is a factor with its covariance, not a
+/// constant. New entries are tracked through the map by solving the last few keyframes and what was
+/// measured from them, everything else held; then the whole graph is solved under a robust kernel
+/// that starts wide and narrows (graduated non-convexity: Yang et al., RA-L 2020), objects on which
+/// two flights disagree are told apart, and it is solved again. Take-off poses that nobody knows,
+/// and loops of one flight that drift has opened beyond the association's gates, are found by
+/// constellations.
+///
+/// Cost: a history costs what it would cost alone, and the final solves of the whole graph.
+class MultiRobotSlam {
+ public:
+  /// Throws Error on an invalid value.
+  MultiRobotSlam(const SlamConfig& config, const objects::ClassTable& table);
+
+  /// Adds what is new of a history; entries that are in the graph already are skipped.
+  /// \param T_world_odom of a flight that is new: where its odometry starts, if anybody knows.
+  MergeReport add(const History& history, const std::optional<PosePrior>& T_world_odom,
+                  const core::Budget& budget);
+
+  [[nodiscard]] const std::vector<MergedFlight>& flights() const { return flights_; }
+
+  /// All objects, by ascending id; histories tell nothing of the ground.
+  [[nodiscard]] objects::ObjectMap map() const;
+  /// The same with covariances in the world frame, poses marginalised where that succeeds.
+  [[nodiscard]] Slam::MapWithCovariance map_with_covariance() const;
+
+ private:
+  using OnPath = std::function<bool(std::size_t chain, const Keyframe&)>;
+
+  [[nodiscard]] std::vector<Chain> chains();
+  [[nodiscard]] std::optional<PosePrior> take_off(const History& history,
+                                                  const std::optional<PosePrior>& T_world_odom,
+                                                  const core::Budget& budget,
+                                                  MergeReport& report) const;
+  static void append(MergedFlight& flight, const HistoryEntry& entry);
+  [[nodiscard]] std::vector<Candidate> candidates(const HistoryEntry& entry, int chain, bool moving,
+                                                  MergeReport& report) const;
+  void integrate(const HistoryEntry& entry, int chain, MergeReport& report);
+  void take_back(const std::vector<Candidate>& moving, int chain);
+  void track(std::size_t chain);
+  void close_loop(std::size_t chain, MergeReport& report);
+  void join(const Alignment& loop);
+  SolveReport solve_narrowing(const core::Budget& budget);
+  void settle(const core::Budget& budget, MergeReport& report);
+  [[nodiscard]] int split();
+  [[nodiscard]] std::vector<int> disagreeing(const Landmark& landmark, Chains chains) const;
+  [[nodiscard]] Survey survey(const std::vector<const Landmark*>& landmarks,
+                              const OnPath& on_path) const;
+  [[nodiscard]] Survey survey() const;
+
+  SlamConfig config_;
+  LandmarkConfig landmark_config_;
+  objects::ClassTable table_;
+  std::vector<MergedFlight> flights_;
+  std::vector<Landmark> landmarks_;  ///< ascending id
+  int next_id_ = 0;
+};
+
+}  // namespace saker::slam
