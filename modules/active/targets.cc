@@ -13,6 +13,8 @@ namespace {
 using objects::Cuboid;
 using objects::MapObject;
 
+constexpr Eigen::Index kCuboidRows = 9;  // of a covariance: [rotation, translation, size]
+constexpr Eigen::Index kLengthRow = 6;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d default_size(const TargetsConfig& config) {
@@ -55,6 +57,15 @@ Cuboid prior_extent(const MapObject& object, const TargetsConfig& config) {
   return extent;
 }
 
+/// Whether a map says how good its length and width are (one that other robots made), and they are.
+bool is_known(const MapObject& object, double known_sd_m) {
+  if (!std::holds_alternative<Cuboid>(object.model) || object.covariance.rows() < kCuboidRows) {
+    return false;
+  }
+  const double variance = object.covariance.diagonal().segment<2>(kLengthRow).maxCoeff();
+  return variance <= known_sd_m * known_sd_m;
+}
+
 bool is_target(const objects::ClassTable& table, objects::ClassId id) {
   return id < table.size() && table[id].target;
 }
@@ -72,6 +83,9 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
     target.class_id = object.class_id;
     target.extent = prior_extent(object, config);
     target.prior_place = target.place();
+    if (!is_known(object, config.known_sd_m)) continue;
+    target.status = TargetStatus::visited;
+    target.reason = "known well beforehand";
   }
   std::stable_sort(targets_.begin(), targets_.end(),
                    [](const Target& a, const Target& b) { return a.id < b.id; });

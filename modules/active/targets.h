@@ -15,6 +15,7 @@ struct TargetsConfig {
   double height_gate_m = 3.0;
   double keep_m = 1.5;
   double prior_margin_m = 0.5;
+  double known_sd_m = 0.05;
   int most_targets = 300;
   std::vector<double> default_size_m = {4.5, 1.9, 1.6};
 
@@ -27,6 +28,9 @@ struct TargetsConfig {
             "by which another object must be nearer, in sum, for targets to swap theirs");
     v.field("prior_margin_m", prior_margin_m, {0, 10}, "m",
             "kept in view around a target that is not mapped yet, for its place is rough");
+    v.field("known_sd_m", known_sd_m, {0, 10}, "m",
+            "a prior map that knows length and width so well needs no visit; 0: every target is "
+            "visited");
     v.field("most_targets", most_targets, {1, 1000}, "",
             "a prior map with more of them is refused: association and tour must fit into a cycle");
     v.field("default_size_m", default_size_m, {0.1, 30}, "m",
@@ -36,7 +40,7 @@ struct TargetsConfig {
 
 enum class TargetStatus {
   pending,      ///< to be visited
-  done,         ///< seen from enough sides, and mapped
+  done,         ///< seen from enough sides, or known well beforehand, and mapped
   visited,      ///< the same, but the map has no object there: the prior may be wrong
   unreachable,  ///< seen from no side
 };
@@ -62,7 +66,8 @@ struct Target {
 };
 
 /// The targets in the order of their ids: the prior's, then those that were added. Objects of other
-/// classes are passed over. Throws Error on a place that is not finite, an id that occurs twice, or
+/// classes are passed over; what the prior map knows well (its covariance says so) is closed from
+/// the beginning. Throws Error on a place that is not finite, an id that occurs twice, or
 /// too many targets.
 class TargetList {
  public:

@@ -242,6 +242,7 @@ MissionResult MissionLockstep::finish() {
   if (last_map_.valid()) last_map_.wait();
   const slam::Slam& slam = mapping_.slam();
   result_.map = mapping_.map_with_covariance();
+  result_.history = slam.history();
   for (std::size_t i = 0; i < result_.scans.size(); ++i) {
     const ScanRecord& scan = result_.scans[i];
     result_.T_world_lidar.push_back(slam.corrected(scan.stamp, scan.T_odom_lidar));

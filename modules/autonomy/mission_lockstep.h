@@ -61,6 +61,7 @@ struct MissionResult {
   std::vector<ScanRecord> scans;
   std::vector<SE3> T_world_lidar;  ///< beside `scans`: after SLAM
   objects::ObjectMap map;
+  slam::History history;  ///< what other robots are told; robot and flight are the caller's to know
   std::vector<active::Target> targets;
   std::vector<MissionEvent> events;
   MissionCounters counters;

@@ -4,20 +4,18 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "simulation/collision.h"
 #include "simulation/mission_obstacles.h"
 #include "simulation/mission_site.h"
 #include "simulation/prior_errors.h"
+#include "simulation/takeoff.h"
 #include "simulation/truth.h"
 
 namespace saker::simulation {
 namespace {
 
-constexpr double kTakeoffRoom = 2.0;    ///< m around the take-off column to anything
-constexpr double kTakeoffHeight = 8.0;  ///< m of it
-constexpr double kUnderCeiling = 1.0;   ///< m: the vehicle, and what it keeps from things
-constexpr int kTakeoffTries = 200;
+constexpr double kUnderCeiling = 1.0;  ///< m: the vehicle, and what it keeps from things
 constexpr int kWorldTries = 20;
+constexpr double kLowestFence = 0.5;              ///< m over the take-off
 constexpr double kUnderground = -1000;            ///< m, where inserted obstacles wait
 const Eigen::Vector3d kRoughSize(4.5, 1.8, 1.5);  ///< m, of any car
 
@@ -42,41 +40,13 @@ MissionSite built(const MissionSiteConfig& site, const core::Rng& rng) {
               std::to_string(most) + " vehicles are parked: raise parked_share or street_m");
 }
 
-bool is_free_column(const RayCaster& caster, const Eigen::Vector3d& foot, double height,
-                    const std::vector<bool>& ground) {
-  for (double z = 0; z <= height; z += kTakeoffRoom / 2) {
-    const Eigen::Vector3f p = (foot + Eigen::Vector3d(0, 0, z)).cast<float>();
-    if (caster.nearest(p, static_cast<float>(kTakeoffRoom), ground)) return false;
-  }
-  return true;
-}
-
-SE3 find_takeoff(const MissionSite& site, const AirframeConfig& airframe, core::Rng& rng) {
-  const World& world = site.flight.built.world;
-  const Terrain& terrain = site.flight.built.terrain;
-  const RayCaster caster(world);
-  const std::vector<bool> ground = ground_materials(world);
-  const double reach = 0.5 * (terrain.shape().half_length - kBeyondSite);
-  // What stands under a ceiling stands on the floor: the ceiling itself is nearer than that.
-  const double height = std::min(kTakeoffHeight, site.ceiling_m - kTakeoffRoom);
-  for (int attempt = 0; attempt < kTakeoffTries; ++attempt) {
-    const double s = rng.uniform(-reach, reach);
-    const double d = site.aisle_d + rng.uniform(-1, 1);
-    SE3 T = terrain.upright(s, d, rng.uniform(-std::numbers::pi, std::numbers::pi));
-    if (!is_free_column(caster, T.translation(), height, ground)) continue;
-    T.translation().z() += airframe.leg_m;
-    return T;
-  }
-  throw Error("mission.site: no free place to take off");
-}
-
-/// Indices of the targets in the world's truth, those nearest to take-off.
-std::vector<std::size_t> choose_targets(const World& world, const SE3& T_sim_world, int count) {
+/// Indices of the targets in the world's truth, those nearest to the base.
+std::vector<std::size_t> choose_targets(const World& world, const SE3& T_sim_base, int count) {
   std::vector<std::pair<double, std::size_t>> by_distance;
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const TrueObject& object = world.objects[i];
     if (object.class_name != "vehicle" || object.moving) continue;
-    by_distance.emplace_back((objects::place(object.model) - T_sim_world.translation()).norm(), i);
+    by_distance.emplace_back((objects::place(object.model) - T_sim_base.translation()).norm(), i);
   }
   std::sort(by_distance.begin(), by_distance.end());
   std::vector<std::size_t> chosen;
@@ -86,7 +56,7 @@ std::vector<std::size_t> choose_targets(const World& world, const SE3& T_sim_wor
 }
 
 /// Somewhere near its true place, of any size, turned anyhow.
-objects::MapObject rough(const TrueObject& object, int id, const SE3& T_world_sim, double sd,
+objects::MapObject rough(const TrueObject& object, int id, const SE3& T_base_sim, double sd,
                          core::Rng& rng) {
   const objects::ClassTable table;
   objects::MapObject entry;
@@ -95,7 +65,7 @@ objects::MapObject rough(const TrueObject& object, int id, const SE3& T_world_si
   entry.class_probability.assign(static_cast<std::size_t>(table.size()), 0);
   entry.class_probability[entry.class_id] = 1;
   objects::Cuboid cuboid;
-  cuboid.pose.translation() = T_world_sim * objects::place(object.model);
+  cuboid.pose.translation() = T_base_sim * objects::place(object.model);
   cuboid.pose.translation().x() += rng.normal(0, sd);
   cuboid.pose.translation().y() += rng.normal(0, sd);
   cuboid.size = kRoughSize;
@@ -104,10 +74,10 @@ objects::MapObject rough(const TrueObject& object, int id, const SE3& T_world_si
 }
 
 objects::ObjectMap rough_map(const World& world, const std::vector<std::size_t>& targets,
-                             const SE3& T_world_sim, double sd, core::Rng& rng) {
+                             const SE3& T_base_sim, double sd, core::Rng& rng) {
   objects::ObjectMap map;
   for (const std::size_t i : targets) {
-    map.objects.push_back(rough(world.objects[i], static_cast<int>(i + 1), T_world_sim, sd, rng));
+    map.objects.push_back(rough(world.objects[i], static_cast<int>(i + 1), T_base_sim, sd, rng));
   }
   return map;
 }
@@ -116,20 +86,6 @@ std::vector<int> ids_of(const objects::ObjectMap& map) {
   std::vector<int> ids;
   for (const objects::MapObject& object : map.objects) ids.push_back(object.id);
   return ids;
-}
-
-/// A box about the targets and the take-off, wide enough to fly around the outer ones.
-MissionFence fence_about(const objects::ObjectMap& prior, const MissionSiteConfig& site,
-                         double ceiling_m) {
-  constexpr double kAround = 8;  // m: viewpoints lie about the targets
-  Eigen::AlignedBox2d box(Eigen::Vector2d::Zero());
-  for (const objects::MapObject& target : prior.objects)
-    box.extend(Eigen::Vector2d(objects::place(target.model).head<2>()));
-  const Eigen::Vector2d low = box.min().array() - kAround - site.fence_margin_m;
-  const Eigen::Vector2d high = box.max().array() + kAround + site.fence_margin_m;
-  return {{low.x(), low.y(), high.x(), low.y(), high.x(), high.y(), low.x(), high.y()},
-          0.5,
-          std::min(site.fence_height_m, ceiling_m - kUnderCeiling)};
 }
 
 /// A wall for each event that brings one in, waiting under the ground.
@@ -152,30 +108,50 @@ std::vector<std::size_t> add_inserted(World& world, const std::vector<ScenarioEv
   return movers;
 }
 
+/// A vehicle alone is a team whose base is where it takes off.
+SE3 find_base(const MissionSite& site, bool team, const AirframeConfig& airframe,
+              const core::Rng& rng) {
+  if (team) return team_base(site);
+  core::Rng takeoff_rng = rng;
+  return find_takeoff(site, airframe, takeoff_rng);
+}
+
 }  // namespace
 
-MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed) {
+std::vector<double> fence_polygon(const objects::ObjectMap& prior, const MissionSiteConfig& site) {
+  constexpr double kAround = 8;  // m: viewpoints lie about the targets
+  Eigen::AlignedBox2d box(Eigen::Vector2d::Zero());
+  for (const objects::MapObject& target : prior.objects)
+    box.extend(Eigen::Vector2d(objects::place(target.model).head<2>()));
+  const Eigen::Vector2d low = box.min().array() - kAround - site.fence_margin_m;
+  const Eigen::Vector2d high = box.max().array() + kAround + site.fence_margin_m;
+  return {low.x(), low.y(), high.x(), low.y(), high.x(), high.y(), low.x(), high.y()};
+}
+
+MissionWorld build_mission_world(const MissionConfig& config, std::uint64_t seed,
+                                 const std::optional<TakeoffPlace>& place) {
   const MissionConfig c = core::checked(config, "mission");
   const core::Rng base(seed);
-  core::Rng takeoff_rng = base.fork(21);
   core::Rng obstacle_rng = base.fork(22);
   core::Rng prior_rng = base.fork(23);
   core::Rng error_rng = base.fork(24);
   MissionSite site = built(c.site, base.fork(20));
   FlightWorld& flight = site.flight;
   World& world = flight.built.world;
-  const SE3 T_sim_world = levelled(find_takeoff(site, c.airframe, takeoff_rng));
-  const std::vector<std::size_t> targets = choose_targets(world, T_sim_world, c.site.targets);
+  const SE3 T_sim_base = find_base(site, place.has_value(), c.airframe, base.fork(21));
+  const std::vector<std::size_t> targets = choose_targets(world, T_sim_base, c.site.targets);
   const objects::ObjectMap rough =
-      rough_map(world, targets, T_sim_world.inverse(), c.site.prior_sd_m, prior_rng);
-  add_obstacles(flight, targets, T_sim_world.translation(), c.site.obstacles, obstacle_rng);
+      rough_map(world, targets, T_sim_base.inverse(), c.site.prior_sd_m, prior_rng);
+  add_obstacles(flight, targets, T_sim_base.translation(), c.site.obstacles, obstacle_rng);
+  const SE3 T_sim_world = place ? takeoff_near(site, T_sim_base, *place, c.airframe) : T_sim_base;
   std::vector<std::size_t> inserted = add_inserted(world, c.events);
-  const MissionFence fence = fence_about(rough, c.site, site.ceiling_m);
+  const MissionFence fence{fence_polygon(rough, c.site), kLowestFence,
+                           std::min(c.site.fence_height_m, site.ceiling_m - kUnderCeiling)};
   objects::ObjectMap prior;
   if (!c.site.no_prior) {
-    prior = with_errors(rough, world, T_sim_world.inverse(), fence, c.site, error_rng);
+    prior = with_errors(rough, world, T_sim_base.inverse(), fence, c.site, error_rng);
   }
-  return {std::move(flight), T_sim_world,         ids_of(rough),
+  return {std::move(flight), T_sim_base,          T_sim_world, ids_of(rough),
           std::move(prior),  std::move(inserted), fence};
 }
 

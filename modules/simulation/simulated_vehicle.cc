@@ -30,23 +30,24 @@ int period_of(double rate_hz, const std::string& key) {
 
 }  // namespace
 
-SimulatedVehicle::SimulatedVehicle(const MissionConfig& config, std::uint64_t seed)
+SimulatedVehicle::SimulatedVehicle(const MissionConfig& config, std::uint64_t seed,
+                                   const std::optional<TakeoffPlace>& place, std::uint64_t own_seed)
     : config_(core::checked(config, "mission")),
-      site_(build_mission_world(config_, seed)),
+      site_(build_mission_world(config_, seed, place)),
       caster_(site_.world()),
       T_body_lidar_(lidar::mount_pose(config_.mount)),
       body_(config_.airframe, site_.T_sim_world),
-      wind_(config_.wind, core::Rng(seed).fork(31)),
-      barometer_(config_.barometer, core::Rng(seed).fork(32)),
+      wind_(config_.wind, core::Rng(own_seed).fork(31)),
+      barometer_(config_.barometer, core::Rng(own_seed).fork(32)),
       battery_(config_.battery),
       controller_imu_(config_.controller_imu, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(),
-                      core::Rng(seed).fork(33)),
+                      core::Rng(own_seed).fork(33)),
       lidar_imu_(config_.imu,
                  T_body_lidar_ * sensor_info(config_.capture).T_sensor_imu.translation(),
-                 T_body_lidar_.linear().transpose(), core::Rng(seed).fork(34)),
+                 T_body_lidar_.linear().transpose(), core::Rng(own_seed).fork(34)),
       controller_(config_.controller, config_.airframe),
       contacts_(caster_, site_.world(), config_.airframe.radius_m),
-      lidar_(config_, caster_, site_.world(), kStart, seed),
+      lidar_(config_, caster_, site_.world(), kStart, own_seed),
       controller_period_(
           period_of(config_.controller_imu.rate_hz, "mission.controller_imu.rate_hz")),
       lidar_imu_period_(period_of(config_.imu.rate_hz, "mission.imu.rate_hz")),

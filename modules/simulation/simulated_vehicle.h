@@ -38,7 +38,11 @@ struct ScanTruth {
 class SimulatedVehicle {
  public:
   /// Throws Error on an invalid value or a site without room.
-  SimulatedVehicle(const MissionConfig& config, std::uint64_t seed);
+  SimulatedVehicle(const MissionConfig& config, std::uint64_t seed)
+      : SimulatedVehicle(config, seed, std::nullopt, seed) {}
+  /// One of a team in the world of `seed`. \param own_seed of its instruments and its wind
+  SimulatedVehicle(const MissionConfig& config, std::uint64_t seed,
+                   const std::optional<TakeoffPlace>& place, std::uint64_t own_seed);
 
   [[nodiscard]] Time now() const { return now_; }
   /// Does nothing for a time that has passed.

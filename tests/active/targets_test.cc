@@ -44,6 +44,21 @@ TEST(Targets, OfAnEmptyPriorAreNone) {
   EXPECT_EQ(targets.size(), 0);
 }
 
+TEST(Targets, ThatAMapKnowsWellAreNotVisitedAndThoseItKnowsBadlyAre) {
+  objects::ObjectMap prior = map_of({car(0, 0), car(9, 0), car(18, 0)});
+  Vector9d sd = Vector9d::Constant(1);
+  sd.segment<2>(6) << 0.04, 0.03;
+  prior.objects[0].covariance = sd.cwiseAbs2().asDiagonal();
+  sd.segment<2>(6) << 0.04, 0.2;
+  prior.objects[1].covariance = sd.cwiseAbs2().asDiagonal();
+  TargetList targets({.known_sd_m = 0.05}, kTable, prior);
+  EXPECT_NE(targets[0].status, TargetStatus::pending);
+  EXPECT_EQ(targets.count(TargetStatus::pending), 2);
+  targets.associate(map_of({car(0.2, 0)}));
+  EXPECT_EQ(targets[0].status, TargetStatus::done);
+  EXPECT_EQ(TargetList({.known_sd_m = 0}, kTable, prior).count(TargetStatus::pending), 3);
+}
+
 TEST(Targets, ExtentIsThePriorsWithAMarginUntilOneIsMapped) {
   TargetList targets = targets_at({car(10, 0)});
   for (const int axis : {0, 1}) {  // nobody knows how it is turned

@@ -9,9 +9,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def saker(*arguments, cwd=None):
+def saker(*arguments, cwd=None, timeout=120):
     return subprocess.run([os.environ["SAKER"], *map(str, arguments)], cwd=cwd, capture_output=True,
-                          text=True, stdin=subprocess.DEVNULL, timeout=120)
+                          text=True, stdin=subprocess.DEVNULL, timeout=timeout)
 
 
 class ProgramTest(unittest.TestCase):

@@ -17,8 +17,8 @@
 #include "saker/mission_run.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
+#include "saker/team_mission.h"
 #include "simulation/mission_world.h"
-#include "simulation/scenario.h"
 
 namespace saker::tools {
 namespace {
@@ -39,14 +39,6 @@ struct Job {
   std::string policy;
   fs::path folder;
 };
-
-simulation::MissionConfig read_site(const std::string& file) {
-  const auto scenario = core::load_config<simulation::Scenario>(file, {});
-  if (scenario.kind != simulation::ScenarioKind::mission) {
-    throw Error(fmt::format("{}: kind: expected mission", file));
-  }
-  return scenario.mission;
-}
 
 /// OUT[/SCENARIO][/POLICY][/seed-N]: what there are several of has folders.
 fs::path folder_of(const ExperimentOptions& options, const MissionRun& run,
@@ -113,13 +105,6 @@ std::string manifest(const ExperimentOptions& options, const CommonOptions& comm
 bool goes_on(const CommonOptions& common, const std::string& wanted) {
   const fs::path file = fs::path(common.out) / "experiment.json";
   return !common.force && fs::exists(file) && core::read_file(file) == wanted;
-}
-
-/// results.json is the last file of a run: where it is, the run is finished.
-std::optional<Json> finished(const fs::path& folder) {
-  const fs::path file = folder / kResults;
-  if (!fs::exists(file)) return std::nullopt;
-  return Json::parse(core::read_file(file));
 }
 
 /// One of several: on one thread, with a log of its own.

@@ -11,6 +11,7 @@
 #include "objects/consistency.h"
 #include "objects/map_io.h"
 #include "saker/configuration.h"
+#include "saker/map_merge.h"
 #include "saker/output.h"
 #include "saker/subcommand.h"
 
@@ -245,6 +246,8 @@ void add_map(Commands& commands) {
   convert_app.add_option("A", options->first, "map to read")->required();
   convert_app.add_option("B", options->second, "file to write")->required();
   add_conversion(convert_app, *options);
+
+  add_map_merge(commands, group);
 
   CLI::App& eval_app = commands.add(
       group,

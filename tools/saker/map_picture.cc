@@ -13,6 +13,10 @@ constexpr double kMargin_m =
     15;  // shown around trajectory and objects: beyond it points say little
 constexpr double kViewpoint_m = 0.4;  // radius of a ring: the vehicle's
 constexpr core::Colour kTruth = colours::kGrey;
+constexpr core::Colour kRobots[] = {colours::kPurple, colours::kOrange, colours::kSky,
+                                    colours::kYellow, colours::kGreen,  colours::kInk};
+
+core::Colour colour_of_robot(std::size_t robot) { return kRobots[robot % std::size(kRobots)]; }
 
 core::Colour colour_of(const objects::ObjectClass& object_class) {
   if (object_class.shape == objects::Shape::cuboid) return colours::kBlue;
@@ -29,6 +33,9 @@ std::vector<Eigen::Vector2d> flat(const std::vector<Eigen::Vector3d>& points) {
 core::Extent extent_of(const MapView& view) {
   core::Extent extent;
   for (const Eigen::Vector3d& p : view.trajectory) extent.include(p.head<2>());
+  for (const RobotPath& robot : view.robots) {
+    for (const Eigen::Vector3d& p : robot.positions) extent.include(p.head<2>());
+  }
   for (const objects::MapObject& object : view.map.objects) {
     extent.include(objects::place(object.model).head<2>());
   }
@@ -45,6 +52,26 @@ void draw(core::Picture& picture, const objects::Model& model, core::Colour colo
   }
 }
 
+std::string title_of(const MapView& view) {
+  std::size_t poses = view.trajectory.size();
+  for (const RobotPath& robot : view.robots) poses += robot.positions.size();
+  return fmt::format("{} objects along {} poses", view.map.objects.size(), poses);
+}
+
+std::vector<core::LegendEntry> legend_of(const MapView& view) {
+  std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
+                                           {core::Mark::ring, colours::kGreen, "trunk"},
+                                           {core::Mark::ring, colours::kOrange, "pole"}};
+  if (view.robots.empty()) {
+    legend.push_back({core::Mark::line, colours::kPurple, "trajectory"});
+  }
+  for (std::size_t i = 0; i < view.robots.size(); ++i) {
+    legend.push_back({core::Mark::line, colour_of_robot(i), view.robots[i].robot});
+  }
+  if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
+  return legend;
+}
+
 }  // namespace
 
 void write_map_picture(const std::filesystem::path& file, const MapView& view,
@@ -56,13 +83,23 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
       draw(picture, object.model, kTruth, 4);
     }
   }
+<<<<<<< HEAD
   picture.polyline(flat(view.trajectory), colours::kPurple);
   for (const Eigen::Vector3d& p : view.viewpoints) {
     picture.circle(p.head<2>(), kViewpoint_m, colours::kPurple, 3);
   }
+||||||| 4a6a3f4
+  picture.polyline(flat(view.trajectory), colours::kPurple);
+=======
+  if (!view.trajectory.empty()) picture.polyline(flat(view.trajectory), colours::kPurple);
+  for (std::size_t i = 0; i < view.robots.size(); ++i) {
+    picture.polyline(flat(view.robots[i].positions), colour_of_robot(i));
+  }
+>>>>>>> missions
   for (const objects::MapObject& object : view.map.objects) {
     draw(picture, object.model, colour_of(table[object.class_id]), 2);
   }
+<<<<<<< HEAD
   picture.title(
       fmt::format("{} objects along {} poses", view.map.objects.size(), view.trajectory.size()));
   std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
@@ -74,6 +111,19 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
   }
   if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
   picture.legend(legend);
+||||||| 4a6a3f4
+  picture.title(
+      fmt::format("{} objects along {} poses", view.map.objects.size(), view.trajectory.size()));
+  std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
+                                           {core::Mark::ring, colours::kGreen, "trunk"},
+                                           {core::Mark::ring, colours::kOrange, "pole"},
+                                           {core::Mark::line, colours::kPurple, "trajectory"}};
+  if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
+  picture.legend(legend);
+=======
+  picture.title(title_of(view));
+  picture.legend(legend_of(view));
+>>>>>>> missions
   picture.save(file);
 }
 

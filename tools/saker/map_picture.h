@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/se3.h"
@@ -9,13 +10,28 @@
 
 namespace saker::tools {
 
+/// Where one of several robots flew.
+struct RobotPath {
+  std::string robot;
+  std::vector<Eigen::Vector3d> positions;
+};
+
 /// A map from above. Truth is optional; everything in the frame of the map.
 struct MapView {
   const objects::ObjectMap& map;
   const objects::ObjectMap* truth = nullptr;
+<<<<<<< HEAD
   std::vector<Eigen::Vector3d> trajectory;
   std::vector<Eigen::Vector3d> viewpoints = {};  ///< that were flown to
   std::vector<Eigen::Vector3d> cloud;            ///< drawn thinly
+||||||| 4a6a3f4
+  std::vector<Eigen::Vector3d> trajectory;
+  std::vector<Eigen::Vector3d> cloud;  ///< drawn thinly
+=======
+  std::vector<Eigen::Vector3d> trajectory{};
+  std::vector<RobotPath> robots{};       ///< of a team, instead of `trajectory`
+  std::vector<Eigen::Vector3d> cloud{};  ///< drawn thinly
+>>>>>>> missions
 };
 
 /// Writes a PNG: points, trajectory, objects with their class, the outlines of the true ones.

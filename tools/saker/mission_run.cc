@@ -8,6 +8,7 @@
 
 #include "autonomy/local_checker.h"
 #include "core/files.h"
+#include "exchange/packed_history.h"
 #include "objects/map_io.h"
 #include "plant/simulated_plant.h"
 #include "saker/map_picture.h"
@@ -22,12 +23,30 @@ namespace fs = std::filesystem;
 /// m: a take-off swings over its height.
 constexpr double kUnderFence = 0.4;
 
+/// What it is told beforehand, `world`, and what is to be mapped.
+struct Task {
+  std::vector<int> targets;
+  objects::ObjectMap prior;
+  std::vector<double> fence_m;
+};
+
+Task task_of(const MissionRun& run, const simulation::MissionWorld& site) {
+  if (!run.team) return {site.targets, site.prior, site.fence.polygon_m};
+  const TeamRole& role = *run.team;
+  return {role.targets, role.prior, simulation::fence_polygon(role.prior, run.site.site)};
+}
+
+simulation::SimulatedVehicle vehicle_of(const MissionRun& run) {
+  if (!run.team) return {run.site, run.seed};
+  return {run.site, run.seed, run.team->takeoff, run.team->own_seed};
+}
+
 /// What the vehicle is told of the site: the fence, heights that fit under it, and how its lidar is
 /// mounted.
-autonomy::Config at_site(autonomy::Config config, const MissionRun& run,
-                         const simulation::MissionWorld& site) {
-  config.motion.geofence = {site.fence.lowest_m, site.fence.highest_m, site.fence.polygon_m};
-  const double highest = site.fence.highest_m - kUnderFence;
+autonomy::Config at_site(autonomy::Config config, const MissionRun& run, const Task& task,
+                         const simulation::MissionFence& fence) {
+  config.motion.geofence = {fence.lowest_m, fence.highest_m, task.fence_m};
+  const double highest = fence.highest_m - kUnderFence;
   config.mission.height_m = std::min(config.mission.height_m, highest);
   config.active.viewpoints.height_m = std::min(config.active.viewpoints.height_m, highest);
   config.mount = {run.site.mount.position_m, run.site.mount.rotation_deg};
@@ -130,6 +149,14 @@ void write_maps(const autonomy::MissionResult& result, const objects::ObjectMap&
                     table);
 }
 
+/// What it tells other robots.
+void write_history(const MissionRun& run, slam::History history, const objects::ClassTable& table,
+                   const fs::path& out) {
+  history.robot = run.robot;
+  history.flight = 1;
+  core::write_file(out / "history.bin", exchange::packed(history, table.size()));
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -138,17 +165,17 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 Json fly(const MissionRun& run, const fs::path& out) {
   const auto begin = std::chrono::steady_clock::now();
-  simulation::SimulatedVehicle vehicle(run.site, run.seed);
-  const simulation::MissionWorld& site = vehicle.site();
-  const autonomy::Config config = at_site(run.config, run, site);
+  simulation::SimulatedVehicle vehicle = vehicle_of(run);
+  const Task task = task_of(run, vehicle.site());
+  const autonomy::Config config = at_site(run.config, run, task, vehicle.site().fence);
   SimulatedPlant plant(vehicle);
   autonomy::LocalChecker checker(config.local_checker, config.collision_checker,
                                  config.motion.clearance);
   core::Timings timings;
-  autonomy::MissionLockstep mission(config, vehicle.sensor(), site.prior, plant, checker,
+  autonomy::MissionLockstep mission(config, vehicle.sensor(), task.prior, plant, checker,
                                     run.threads, timings);
   std::optional<core::Progress> progress;
-  if (run.shows_progress) progress.emplace(run.scenario, site.targets.size());
+  if (run.shows_progress) progress.emplace(run.scenario, task.targets.size());
   MissionRecorder recorder(vehicle, out, config.objects, run.log, progress ? &*progress : nullptr);
   const double built_s = seconds_since(begin);
   const Time start = vehicle.now();
@@ -161,7 +188,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
       {"policy",
        active::enum_names(config.active.policy)[static_cast<std::size_t>(config.active.policy)]},
       {"seed", run.seed}};
-  results.update(target_figures(result.map, truth, site.targets, config.objects));
+  results.update(target_figures(result.map, truth, task.targets, config.objects));
   const Json around = target_figures(result.map, truth, in_fence(truth, config), config.objects);
   results["in_fence"] = around["targets"];
   results["in_fence_found"] = around["found"];
@@ -177,11 +204,18 @@ Json fly(const MissionRun& run, const fs::path& out) {
 
   recorder.finish();
   write_trajectories(result, recorder, out);
-  write_maps(result, truth, site.prior, recorder, config.objects, out);
+  write_maps(result, truth, task.prior, recorder, config.objects, out);
+  write_history(run, result.history, config.objects, out);
   core::write_file(out / "viewpoints.csv", recorder.viewpoints().csv());
   core::write_file(out / "timings.csv", timings.csv());
   core::write_file(out / "results.json", results.dump(2) + "\n");
   return results;
+}
+
+std::optional<Json> finished(const fs::path& folder) {
+  const fs::path file = folder / "results.json";
+  if (!fs::exists(file)) return std::nullopt;
+  return Json::parse(core::read_file(file));
 }
 
 }  // namespace saker::tools

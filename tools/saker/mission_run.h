@@ -4,16 +4,29 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "autonomy/config.h"
 #include "saker/target_figures.h"
-#include "simulation/mission_config.h"
+#include "simulation/mission_world.h"
 
 namespace saker::tools {
+
+/// What a robot of a team has that a vehicle alone has not.
+struct TeamRole {
+  simulation::TakeoffPlace takeoff;
+  std::uint64_t own_seed = 1;  ///< of its instruments
+  std::vector<int> targets;    ///< ids, in the truth, of what it is to map
+  objects::ObjectMap prior;    ///< `world`: what it is told
+};
 
 /// One mission, world and vehicle simulated, in lockstep.
 struct MissionRun {
   std::string scenario;  ///< its name, for results.json
+  std::string robot = "R1";
+  std::optional<TeamRole> team = std::nullopt;
   simulation::MissionConfig site;
   autonomy::Config config;
   std::uint64_t seed = 1;
@@ -25,5 +38,8 @@ struct MissionRun {
 /// Flies it and leaves in `out` what docs/contract.md lists, results.json last.
 /// \return what results.json holds. Throws Error on a configuration or a site that cannot be.
 Json fly(const MissionRun& run, const std::filesystem::path& out);
+
+/// What results.json of a run holds; nothing where it is not finished, for it is the last file.
+[[nodiscard]] std::optional<Json> finished(const std::filesystem::path& folder);
 
 }  // namespace saker::tools

@@ -1,0 +1,89 @@
+#include "saker/team_map.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "objects/comparison.h"
+
+namespace saker::tools {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+bool is_target(const objects::MapObject& object, const objects::ClassTable& table) {
+  return object.class_id < table.size() && table[object.class_id].target;
+}
+
+/// Id of what was said beforehand → the mapped object that it is.
+std::map<int, int> mapped_of(const objects::ObjectMap& said, const objects::ObjectMap& mapped,
+                             double gate_m, const objects::ClassTable& table) {
+  std::map<int, int> ids;
+  for (const auto& of_class : objects::compare(mapped, said, table, {.gate_m = gate_m})) {
+    for (const objects::FoundPair& pair : of_class.pairs) ids[pair.truth] = pair.mapped;
+  }
+  return ids;
+}
+
+int next_id(const objects::ObjectMap& map) {
+  int id = 0;
+  for (const objects::MapObject& object : map.objects) id = std::max(id, object.id + 1);
+  return id;
+}
+
+}  // namespace
+
+objects::ObjectMap in_frame(const std::string& frame, const SE3& T_frame_map,
+                            const objects::ObjectMap& map) {
+  objects::ObjectMap seen = map;
+  seen.frame = frame;
+  for (objects::MapObject& object : seen.objects) {
+    object.model = objects::transformed(T_frame_map, object.model);
+  }
+  for (objects::GroundPlane& plane : seen.ground) plane = objects::transformed(T_frame_map, plane);
+  return seen;
+}
+
+Lot::Lot(const std::vector<double>& corners_m) {
+  if (!corners_m.empty()) outline_.emplace(motion::GeofenceConfig{.polygon_m = corners_m});
+}
+
+bool Lot::contains(const Eigen::Vector3d& place) const {
+  return !outline_ || outline_->inside_polygon_m(place.head<2>()) >= 0;
+}
+
+slam::PosePrior surveyed(const SE3& T_base_world, const TakeoffSurveyConfig& config,
+                         core::Rng rng) {
+  Vector6d sd;
+  sd << config.level_sd_deg * kDegree, config.level_sd_deg * kDegree,
+      config.heading_sd_deg * kDegree, Eigen::Vector3d::Constant(config.place_sd_m);
+  Vector6d error;
+  // The level's error is the robot's own, in its `world`: the survey adds none.
+  error << 0, 0, rng.normal(0, sd[2]), rng.normal(0, sd[3]), rng.normal(0, sd[4]),
+      rng.normal(0, sd[5]);
+  return {T_base_world * core::se3_exp(error), sd.cwiseAbs2().asDiagonal()};
+}
+
+objects::ObjectMap next_prior(const objects::ObjectMap& said, const objects::ObjectMap& mapped,
+                              const Lot& lot, double gate_m, const objects::ClassTable& table) {
+  const std::map<int, int> mapped_as = mapped_of(said, mapped, gate_m, table);
+  objects::ObjectMap prior;
+  prior.frame = said.frame;
+  std::map<int, int> known;  // mapped id → its id in the prior
+  for (const auto& [said_id, mapped_id] : mapped_as) known[mapped_id] = said_id;
+  for (const objects::MapObject& object : said.objects) {
+    const bool in_lot = lot.contains(objects::place(object.model));
+    if (in_lot && !mapped_as.contains(object.id)) prior.objects.push_back(object);
+  }
+  int unused = next_id(said);
+  for (objects::MapObject object : mapped.objects) {
+    if (!is_target(object, table) || !lot.contains(objects::place(object.model))) continue;
+    const auto as = known.find(object.id);
+    object.id = as != known.end() ? as->second : unused++;
+    prior.objects.push_back(std::move(object));
+  }
+  std::ranges::sort(prior.objects, {}, &objects::MapObject::id);
+  return prior;
+}
+
+}  // namespace saker::tools

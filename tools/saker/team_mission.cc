@@ -1,0 +1,84 @@
+#include "saker/team_mission.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/config_io.h"
+#include "core/error.h"
+#include "exchange/stream.h"
+#include "motion/geofence.h"
+#include "simulation/scenario.h"
+
+namespace saker::tools {
+namespace {
+
+void check_name(const RobotConfig& robot, std::set<std::string>& names) {
+  if (!exchange::is_name(robot.name)) {
+    throw Error(fmt::format("name: '{}', expected 1 to {} capitals and digits", robot.name,
+                            exchange::kLongestName));
+  }
+  if (!names.insert(robot.name).second) {
+    throw Error(
+        fmt::format("name: '{}' occurs twice, expected another for each robot", robot.name));
+  }
+}
+
+void check_lot(const RobotConfig& robot) {
+  if (robot.lot_m.empty()) return;
+  try {
+    const motion::Geofence lot({.polygon_m = robot.lot_m});
+  } catch (const Error&) {
+    throw Error(fmt::format("lot_m: {} numbers, expected x and y of three corners or more",
+                            robot.lot_m.size()));
+  }
+}
+
+/// What the robot's program is told: the command line's configuration and what is this robot's own.
+autonomy::Config told(const RobotConfig& robot, autonomy::Config config) {
+  for (const std::string& setting : robot.set) {
+    config = core::config_with_setting(setting, std::move(config));
+  }
+  config.mission.height_m = robot.height_m;
+  config.active.viewpoints.height_m = robot.height_m;
+  config.active.policy = robot.policy;
+  config.mount = robot.mount;
+  (void)lidar::mount_pose(config.mount);
+  return config;
+}
+
+}  // namespace
+
+simulation::MissionConfig read_site(const std::string& file) {
+  const auto scenario = core::load_config<simulation::Scenario>(file, {});
+  if (scenario.kind != simulation::ScenarioKind::mission) {
+    throw Error(fmt::format("{}: kind: expected mission", file));
+  }
+  return scenario.mission;
+}
+
+TeamMission read_team_mission(const std::filesystem::path& file, const autonomy::Config& config) {
+  TeamMission mission{.config = core::load_config<TeamMissionConfig>(file, {}),
+                      .name = file.stem().string()};
+  if (mission.config.scenario.empty()) {
+    throw Error(fmt::format("{}: scenario: missing, expected a file", file.string()));
+  }
+  if (mission.config.robots.empty()) {
+    throw Error(fmt::format("{}: robots: none, expected at least one", file.string()));
+  }
+  mission.site = read_site((file.parent_path() / mission.config.scenario).string());
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < mission.config.robots.size(); ++i) {
+    const RobotConfig& robot = mission.config.robots[i];
+    try {
+      check_name(robot, names);
+      check_lot(robot);
+      mission.robots.push_back(told(robot, config));
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}: robots[{}].{}", file.string(), i, error.what()));
+    }
+  }
+  return mission;
+}
+
+}  // namespace saker::tools
