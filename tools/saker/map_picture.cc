@@ -68,6 +68,9 @@ std::vector<core::LegendEntry> legend_of(const MapView& view) {
   for (std::size_t i = 0; i < view.robots.size(); ++i) {
     legend.push_back({core::Mark::line, colour_of_robot(i), view.robots[i].robot});
   }
+  if (!view.viewpoints.empty()) {
+    legend.push_back({core::Mark::ring, colours::kPurple, "viewpoint"});
+  }
   if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
   return legend;
 }
@@ -83,47 +86,18 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
       draw(picture, object.model, kTruth, 4);
     }
   }
-<<<<<<< HEAD
-  picture.polyline(flat(view.trajectory), colours::kPurple);
-  for (const Eigen::Vector3d& p : view.viewpoints) {
-    picture.circle(p.head<2>(), kViewpoint_m, colours::kPurple, 3);
-  }
-||||||| 4a6a3f4
-  picture.polyline(flat(view.trajectory), colours::kPurple);
-=======
   if (!view.trajectory.empty()) picture.polyline(flat(view.trajectory), colours::kPurple);
   for (std::size_t i = 0; i < view.robots.size(); ++i) {
     picture.polyline(flat(view.robots[i].positions), colour_of_robot(i));
   }
->>>>>>> missions
+  for (const Eigen::Vector3d& p : view.viewpoints) {
+    picture.circle(p.head<2>(), kViewpoint_m, colours::kPurple, 3);
+  }
   for (const objects::MapObject& object : view.map.objects) {
     draw(picture, object.model, colour_of(table[object.class_id]), 2);
   }
-<<<<<<< HEAD
-  picture.title(
-      fmt::format("{} objects along {} poses", view.map.objects.size(), view.trajectory.size()));
-  std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
-                                           {core::Mark::ring, colours::kGreen, "trunk"},
-                                           {core::Mark::ring, colours::kOrange, "pole"},
-                                           {core::Mark::line, colours::kPurple, "trajectory"}};
-  if (!view.viewpoints.empty()) {
-    legend.push_back({core::Mark::ring, colours::kPurple, "viewpoint"});
-  }
-  if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
-  picture.legend(legend);
-||||||| 4a6a3f4
-  picture.title(
-      fmt::format("{} objects along {} poses", view.map.objects.size(), view.trajectory.size()));
-  std::vector<core::LegendEntry> legend = {{core::Mark::rectangle, colours::kBlue, "vehicle"},
-                                           {core::Mark::ring, colours::kGreen, "trunk"},
-                                           {core::Mark::ring, colours::kOrange, "pole"},
-                                           {core::Mark::line, colours::kPurple, "trajectory"}};
-  if (view.truth != nullptr) legend.push_back({core::Mark::rectangle, kTruth, "truth"});
-  picture.legend(legend);
-=======
   picture.title(title_of(view));
   picture.legend(legend_of(view));
->>>>>>> missions
   picture.save(file);
 }
 

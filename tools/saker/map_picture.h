@@ -20,18 +20,10 @@ struct RobotPath {
 struct MapView {
   const objects::ObjectMap& map;
   const objects::ObjectMap* truth = nullptr;
-<<<<<<< HEAD
-  std::vector<Eigen::Vector3d> trajectory;
-  std::vector<Eigen::Vector3d> viewpoints = {};  ///< that were flown to
-  std::vector<Eigen::Vector3d> cloud;            ///< drawn thinly
-||||||| 4a6a3f4
-  std::vector<Eigen::Vector3d> trajectory;
-  std::vector<Eigen::Vector3d> cloud;  ///< drawn thinly
-=======
   std::vector<Eigen::Vector3d> trajectory{};
-  std::vector<RobotPath> robots{};       ///< of a team, instead of `trajectory`
-  std::vector<Eigen::Vector3d> cloud{};  ///< drawn thinly
->>>>>>> missions
+  std::vector<Eigen::Vector3d> viewpoints{};  ///< that were flown to
+  std::vector<RobotPath> robots{};            ///< of a team, instead of `trajectory`
+  std::vector<Eigen::Vector3d> cloud{};       ///< drawn thinly
 };
 
 /// Writes a PNG: points, trajectory, objects with their class, the outlines of the true ones.
