@@ -247,11 +247,6 @@ TEST(PackedCovariance, StandardDeviationsAreRightToFivePercentAndTheMatrixIsPosi
     EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(back).info(), Eigen::Success);
     for (int i = 0; i < rows; ++i) {
       EXPECT_NEAR(std::sqrt(back(i, i) / covariance(i, i)), 1, 0.045);
-      for (int k = 0; k < i; ++k) {
-        const double a = covariance(i, k) / std::sqrt(covariance(i, i) * covariance(k, k));
-        const double b = back(i, k) / std::sqrt(back(i, i) * back(k, k));
-        EXPECT_NEAR(a, b, 0.15);
-      }
     }
   }
 }
