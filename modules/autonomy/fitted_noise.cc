@@ -12,11 +12,15 @@ namespace {
 
 using objects::Measurement;
 
-/// To what this window could see of the object comes what windows from there err by besides.
+/// The planar part of a covariance replaced; nothing is known of how it goes with the rest.
 Eigen::MatrixXd with_planar(const Eigen::MatrixXd& covariance, const std::vector<int>& rows,
                             const Eigen::MatrixXd& fitted) {
   Eigen::MatrixXd result = covariance;
-  result(rows, rows) += fitted;
+  for (const int row : rows) {
+    result.row(row).setZero();
+    result.col(row).setZero();
+  }
+  result(rows, rows) = fitted;
   return result;
 }
 

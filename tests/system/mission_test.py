@@ -20,9 +20,9 @@ ROBOTS = """  - {name: R1, x_m: -3, lot_m: [-100, -60, 0, -60, 0, 60, -100, 60]}
 AT_ONCE = ("--set", "mission.preflight_s=1")
 LEFT = {"R1", "R2", "log.txt", "map.json", "map.png", "map.smap", "mission.json", "prior.json",
         "results.json", "table.txt", "truth.json"}
-LEFT_BY_A_ROBOT = {"history.bin", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
+LEFT_BY_A_ROBOT = {"detections.jsonl", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
                    "results.json", "timings.csv", "trajectory.txt", "trajectory_truth.txt", "truth.json",
-                   "viewpoints.csv"}
+                   "viewpoints.csv", "viewpoints.txt"}
 
 
 def write_mission(folder, robots=ROBOTS, scenario="site.yaml", more=""):
@@ -102,11 +102,11 @@ class FlownMission(unittest.TestCase):
         cls.addClassCleanup(holder.cleanup)
         folder = pathlib.Path(holder.name)
         cls.out = folder / "out"
-        cls.run = saker("mission", write_mission(folder), "-o", cls.out, timeout=1200)
+        cls.mission = saker("mission", write_mission(folder), "-o", cls.out, timeout=1200)
         cls.results = json.loads((cls.out / "results.json").read_text())
 
     def test_every_target_is_in_the_merged_map(self):
-        self.assertEqual(self.run.returncode, 0, self.run.stderr)
+        self.assertEqual(self.mission.returncode, 0, self.mission.stderr)
         merged = self.results["merged"]
         self.assertEqual((merged["found"], merged["targets"]), (4, 4))
         self.assertLess(merged["mae_m"], 0.25)
