@@ -12,6 +12,8 @@ BIN = pathlib.Path(os.environ["SAKER_BIN"])
 SCENARIO = ROOT / "configs/scenarios/small.yaml"
 AT_REST = 0.2  # m/s
 FAST = 0.8     # m/s over ground: on the way
+# From one side to the other a leg is long enough for a fault in the middle of it.
+TWO_SIDES = ("--set", "active.visit.sides=2", "--set", "active.visit.oblique_worth_m=10")
 
 
 class Row:
@@ -44,8 +46,8 @@ class Flight:
         self.wait(lambda: (self.site / "metadata.json").exists(), 20, "a site")
         config = ("--config", self.site / "site.yaml")
         self.start("saker-collision-checker", *config)
-        self.start("saker-flight", *config, "--prior", self.site / "prior.json", "--meta", self.site / "metadata.json",
-                   "-o", self.out)
+        self.start("saker-flight", *config, *TWO_SIDES, "--prior", self.site / "prior.json", "--meta",
+                   self.site / "metadata.json", "-o", self.out)
 
     def start(self, name, *arguments):
         with open(self.folder / f"{name}.log", "w") as log:
