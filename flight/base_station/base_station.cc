@@ -28,10 +28,6 @@ counter_t counter(const std::string& name, long value) {
   return message;
 }
 
-std::string_view bytes_of(const exchange_t& message) {
-  return {reinterpret_cast<const char*>(message.data.data()), message.data.size()};
-}
-
 }  // namespace
 
 BaseStation::BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& robots,
@@ -56,14 +52,14 @@ bool BaseStation::hear(const std::string& robot, const exchange_t& message) {
   const std::string channel = channel_name<exchange_t>(robot);
   if (!visits_.contains(channel)) return admit(channel, message);
   const exchange::Verdict verdict =
-      exchange_.receive(nanoseconds(Steady::now()), channel, bytes_of(message));
+      exchange_.receive(nanoseconds(Steady::now()), channel, datagram_of(message));
   return verdict == exchange::Verdict::genuine || verdict == exchange::Verdict::own;
 }
 
 /// A robot's first message is its ticket: only what the team's key sealed makes a link. Its content
 /// is lost; a robot calls again.
 bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
-  const exchange::Opened first = exchange_.opener().open(channel, bytes_of(message));
+  const exchange::Opened first = exchange_.opener().open(channel, datagram_of(message));
   if (first.verdict != exchange::Verdict::genuine || first.sender != robot_of(channel))
     return false;
   if (visits_.size() >= static_cast<std::size_t>(config_.most_robots)) {
@@ -99,10 +95,7 @@ BaseStation::Steady::time_point BaseStation::next_due() const {
 
 void BaseStation::send(Time now) {
   while (const auto datagram = exchange_.next(now)) {
-    exchange_t message{};
-    message.utime = system_utime();
-    message.data.assign(datagram->bytes.begin(), datagram->bytes.end());
-    message.num_data = static_cast<std::int32_t>(message.data.size());
+    const exchange_t message = to_lcm(system_utime(), datagram->bytes);
     not_sent_ += !robots_.publish_as(robot_of(datagram->channel), message);
   }
 }

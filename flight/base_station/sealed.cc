@@ -1,15 +1,9 @@
 #include "base_station/sealed.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
 namespace saker::flight {
-
-std::int64_t system_utime() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
 
 std::optional<std::string> sealed_order(exchange::Sealer& sealer, const std::string& channel,
                                         std::int64_t utime, Bus::Bytes message) {

@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/exchange_messages.h"
 #include "exchange/seal.h"
 
 /// An order of the ground to a robot as it travels to the base: when it was sealed (8 bytes, µs of
 /// the system clock, little-endian) and the message's bytes, both sealed by the team's key for its
 /// channel. The base opens it; what is older than an order may be was held back by somebody.
 namespace saker::flight {
-
-/// µs of the system clock.
-[[nodiscard]] std::int64_t system_utime();
 
 /// Nothing where the seal fails (exchange/seal.h).
 [[nodiscard]] std::optional<std::string> sealed_order(exchange::Sealer& sealer,

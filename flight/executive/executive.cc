@@ -50,6 +50,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       guidance_(config.autonomy.guidance),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()) {
   board_.orders.put(Orders{});
+  if (!config.exchange.folder.empty()) exchange_ = std::make_unique<RobotExchange>(config, bus);
   subscribe();
   make_loops();
 }
@@ -94,6 +95,7 @@ void Executive::make_loops() {
   add("pose", 100, kPosePriority, &Executive::pose);
   add("guidance", 50, kGuidancePriority, &Executive::guide);
   add("safety", 50, kSafetyPriority, &Executive::supervise);
+  if (exchange_ != nullptr) add("exchange", 50, 0, &Executive::exchange);
 }
 
 /// The mission's time is the sensor's: without it nothing begins.
@@ -153,6 +155,7 @@ bool Executive::run(Service& service, const FlightMark& mark) {
     if (look % kLooksPerHealth == 0) say_health();
     if (look % (kLooksPerHealth * kHealthsPerProgress) == 0) say_progress(service);
   }
+  if (board_.mission_done && exchange_ != nullptr) hand_over(service);
   service.stopping();
   stop();
   say_events(mark);
@@ -162,6 +165,30 @@ bool Executive::run(Service& service, const FlightMark& mark) {
   ran_cpu_s_ = process_seconds() - begin_cpu_s;
   say_totals();
   return supervisor_.mission().succeeded();
+}
+
+/// Landed: what flew stops, and a base in reach is told what it lacks.
+void Executive::hand_over(Service& service) {
+  for (auto& loop : loops_) {
+    if (loop->name() != "io" && loop->name() != "exchange") loop->stop();
+  }
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(config_.exchange.landed_s);
+  for (int look = 1; !exchange_->settled() && stop_requests() < 2; ++look) {
+    if (std::chrono::steady_clock::now() > end) {
+      spdlog::warn("the base lacks some of this flight after {:g} s", config_.exchange.landed_s);
+      return;
+    }
+    std::this_thread::sleep_for(kLook);
+    feed_watchdog(service);
+    if (look % kLooksPerHealth == 0) say_health();
+  }
+  if (exchange_->handed_over()) {
+    spdlog::info("the base has this flight, number {}", exchange_->flight());
+  } else {
+    spdlog::info("no base has all of flight {}: it waits in {}", exchange_->flight(),
+                 config_.exchange.folder);
+  }
 }
 
 void Executive::stop() {
@@ -195,6 +222,10 @@ void Executive::save(const std::filesystem::path& out) {
   core::write_file(out / "viewpoints.txt", viewpoints);
   core::write_file(out / "timings.csv", timings_.csv());
   save_loops(out / "loops.json");
+  slam::History history = slam.history();
+  history.robot = bus_.robot();
+  history.flight = exchange_ != nullptr ? exchange_->flight() : 1;
+  core::write_file(out / "history.bin", exchange::packed(history, config_.autonomy.objects.size()));
 }
 
 }  // namespace saker::flight

@@ -13,6 +13,7 @@
 #include "core/timings.h"
 #include "executive/blackboard.h"
 #include "executive/loop.h"
+#include "executive/robot_exchange.h"
 #include "lidar/udp_receiver.h"
 #include "process/configuration.h"
 #include "process/service.h"
@@ -21,6 +22,7 @@
 ///
 ///     UDP ─▶ sensor ─▶ ingestion ─▶ segmentation ─▶ mapping ─▶ planning ─▶ guidance ─▶ LCM
 ///                └────▶ pose ◀──┘      LCM ─▶ io ─▶ safety (and mission) ───┘
+///                                           └──▶ exchange ◀── mapping
 ///
 /// Loops meet on the blackboard only. Throws at set-up, never in a loop.
 namespace saker::flight {
@@ -37,12 +39,13 @@ class Executive {
   Executive(const ProcessConfig& config, const ExecutiveInput& input, Bus& bus, Presence& presence);
   ~Executive();
 
-  /// Until the mission is done. The first stop request lands, the second one ends at once. Feeds
-  /// the watchdog of `service` while no loop hangs, and sets `mark` before it arms.
-  /// \return whether the mission succeeded
+  /// Until the mission is done, and a base in reach has what there is to tell. The first stop
+  /// request lands, the second one ends at once. Feeds the watchdog of `service` while no loop
+  /// hangs, and sets `mark` before it arms. \return whether the mission succeeded
   [[nodiscard]] bool run(Service& service, const FlightMark& mark);
 
-  /// Map, trajectories and timings, as `saker replay` leaves them. After `run`.
+  /// Map, trajectories and timings, as `saker replay` leaves them, and history.bin, what this
+  /// flight has to tell. After `run`.
   void save(const std::filesystem::path& out);
 
  private:
@@ -51,6 +54,7 @@ class Executive {
   [[nodiscard]] bool start_loops(Service& service);
   [[nodiscard]] bool wait_for_sensor(Service& service);
   void feed_watchdog(Service& service);
+  void hand_over(Service& service);
   void stop();
 
   LoopStatus io();
@@ -67,6 +71,7 @@ class Executive {
   void take_proposal(Time now);
   void send_trajectory(Time now);
   LoopStatus supervise();
+  LoopStatus exchange();
   [[nodiscard]] autonomy::SupervisorInput seen(Time now);
 
   void publish_mission(const autonomy::MissionEvent* event);
@@ -117,6 +122,8 @@ class Executive {
   autonomy::Supervisor supervisor_;
   int anchors_ = 0;
   std::chrono::steady_clock::time_point announced_;
+
+  std::unique_ptr<RobotExchange> exchange_;  // null: it tells nobody
 
   std::string hanging_;  // the loop that was said to hang
   Time took_off_ = 0;

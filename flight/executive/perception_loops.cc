@@ -94,9 +94,15 @@ LoopStatus Executive::map() {
   auto map = timings_.time(
       "mapping", [&] { return mapping_.cycle(window, motion_log_.take(window.back().stamp)); });
   bus_.publish(to_lcm(map->detections));
+  if (exchange_ != nullptr) exchange_->add(mapping_.slam().history());
   if (++map_cycles_ % kCyclesPerMap == 0) publish_map(*map);
   board_.map.put(std::move(map));
   return {age_ms(window.back().stamp), board_.labelled.dropped()};
+}
+
+LoopStatus Executive::exchange() {
+  exchange_->step();
+  return {NAN, exchange_->dropped()};
 }
 
 void Executive::publish_map(const autonomy::MapSnapshot& map) {

@@ -11,7 +11,7 @@
 namespace saker::flight {
 namespace {
 
-counter_t counter(const char* name, long value) {
+counter_t counter(const std::string& name, long value) {
   counter_t message{};
   message.name = name;
   message.value = value;
@@ -101,6 +101,10 @@ void Executive::say_health() {
                       counter("imu_dropped", board_.imu.dropped()),
                       counter("labelled_dropped", board_.labelled.dropped()),
                       counter("events_dropped", board_.events.dropped())};
+  if (exchange_ != nullptr) {
+    for (const auto& [name, value] : exchange_->figures())
+      message.counters.push_back(counter(name, value));
+  }
   message.num_counters = static_cast<std::int32_t>(message.counters.size());
   bus_.publish(message);
 }

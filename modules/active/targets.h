@@ -40,7 +40,7 @@ struct TargetsConfig {
 
 enum class TargetStatus {
   pending,      ///< to be visited
-  done,         ///< seen from enough sides, or known well beforehand, and mapped
+  done,         ///< seen from enough sides, and mapped
   visited,      ///< the same, but the map has no object there: the prior may be wrong
   unreachable,  ///< seen from no side
 };

@@ -39,7 +39,7 @@ LockstepResult Lockstep::run(lidar::ScanSource& source, LockstepObserver& observ
   for (const ScanRecord& scan : result.scans) {
     result.T_world_lidar.push_back(slam_.corrected(scan.stamp, scan.T_odom_lidar));
   }
-  result.map = slam_.map_with_covariance().map;
+  result.map = slam_.reported_map();
   noise_.add_common(result.map);
   result.keyframes = static_cast<int>(slam_.keyframes().size());
   return result;

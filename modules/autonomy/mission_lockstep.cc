@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -51,6 +52,8 @@ MissionLockstep::~MissionLockstep() = default;
 
 MissionResult MissionLockstep::run(double limit_s, MissionObserver& observer) {
   observer_ = &observer;
+  // Room from the start: a list that doubles in flight holds three times its size for a moment.
+  result_.scans.reserve(static_cast<std::size_t>(std::ceil(limit_s * sensor_.frame_rate_hz)));
   const Time end = after(plant_.now(), limit_s);
   for (Time now = plant_.now() + kTick; now <= end && !supervisor_.mission().done(); now += kTick) {
     step(now);

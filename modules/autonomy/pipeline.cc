@@ -134,7 +134,7 @@ std::shared_ptr<const MapSnapshot> Mapping::cycle(std::span<const detection::Lab
 }
 
 objects::ObjectMap Mapping::map_with_covariance() const {
-  objects::ObjectMap map = slam_.map_with_covariance().map;
+  objects::ObjectMap map = slam_.reported_map();
   noise_.add_common(map);
   return map;
 }

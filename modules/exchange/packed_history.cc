@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "exchange/bytes.h"
 #include "exchange/packed_covariance.h"
 #include "exchange/packed_measurement.h"
 #include "exchange/stream.h"
@@ -9,8 +10,9 @@
 namespace saker::exchange {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 constexpr int kMostClasses = 256;
+constexpr std::size_t kMostMeasurements = 5000;         // of one entry: an object map makes one
 constexpr Time kMostStamp = 9'000'000'000'000'000'000;  // ns
 constexpr double kMostTurn = 4;                         // rad, of a rotation vector
 
@@ -22,17 +24,19 @@ SE3 moved(const SE3& T, const Eigen::Vector3d& translation, const Eigen::Vector3
   return T * motion;
 }
 
+Eigen::Vector3d in_steps(const Eigen::Vector3d& value, double step) {
+  return value.unaryExpr(
+      [step](double v) { return static_cast<double>(std::llround(v / step)) * step; });
+}
+
 /// As the other end will read it.
-SE3 pack_motion(const SE3& from, const SE3& to, ByteWriter& out) {
+SE3 pack_motion(const SE3& from, const SE3& to, CodedWriter& out) {
   const SE3 motion = from.inverse() * to;
-  ByteWriter steps;
-  pack_steps(motion.translation(), kPlaceStep, steps);
-  pack_steps(core::so3_log(motion.rotation()), kAngleStep, steps);
-  out.raw(steps.bytes());
-  ByteReader in(steps.bytes());
-  const auto translation = unpacked_steps(kPlaceStep, kFarthest, in);
-  const auto rotation = unpacked_steps(kAngleStep, kMostTurn, in);
-  return moved(from, *translation, *rotation);
+  const Eigen::Vector3d translation = motion.translation(),
+                        rotation = core::so3_log(motion.rotation());
+  pack_steps(translation, kPlaceStep, out);
+  pack_steps(rotation, kAngleStep, out);
+  return moved(from, in_steps(translation, kPlaceStep), in_steps(rotation, kAngleStep));
 }
 
 bool has_covariance(const Matrix6d& covariance) {
@@ -46,9 +50,9 @@ struct Before {
 };
 
 std::optional<slam::HistoryEntry> unpacked_entry(const Before& before, int classes,
-                                                 std::string_view bytes) {
-  ByteReader in(bytes);
+                                                 CodedReader in) {
   slam::HistoryEntry entry;
+  in.part(part(Part::entry));
   const std::int64_t steps = in.signed_varint();
   if (steps < 0 || steps > (kMostStamp - before.stamp) / kStampStep) return std::nullopt;
   entry.stamp = before.stamp + steps * kStampStep;
@@ -56,8 +60,12 @@ std::optional<slam::HistoryEntry> unpacked_entry(const Before& before, int class
   const auto rotation = unpacked_steps(kAngleStep, kMostTurn, in);
   if (!translation || !rotation) return std::nullopt;
   entry.T_odom_lidar = moved(before.T_odom_lidar, *translation, *rotation);
-  if (in.byte() != 0) entry.motion_covariance = unpacked_covariance(6, in);
-  while (in.rest() > 0) {
+  const bool covariance = in.byte() != 0;
+  const std::uint64_t measurements = in.varint();
+  if (in.failed() || measurements > kMostMeasurements) return std::nullopt;
+  in.part(part(Part::motion));
+  if (covariance) entry.motion_covariance = unpacked_covariance(6, in);
+  for (std::uint64_t i = 0; i < measurements; ++i) {
     auto measurement = unpacked_measurement(entry.stamp, classes, in);
     if (!measurement) return std::nullopt;
     entry.measurements.push_back(std::move(*measurement));
@@ -87,22 +95,26 @@ std::string HistoryPacker::pack(const slam::HistoryEntry& entry) {
       (T_odom_lidar_.inverse() * entry.T_odom_lidar).translation().cwiseAbs().maxCoeff() <
           kFarthest;
   if (!is_pose || stamp < stamp_ || stamp > kMostStamp) return "";
-  ByteWriter body;
+  std::vector<const objects::Measurement*> measurements;
+  for (const objects::Measurement& each : entry.measurements) {
+    if (packable(each, classes_) && measurements.size() < kMostMeasurements) {
+      measurements.push_back(&each);
+    }
+  }
+  left_out_ += static_cast<long>(entry.measurements.size() - measurements.size());
+  CodedWriter body(statistics_);
+  body.part(part(Part::entry));
   body.signed_varint((stamp - stamp_) / kStampStep);
   T_odom_lidar_ = pack_motion(T_odom_lidar_, entry.T_odom_lidar, body);
   stamp_ = stamp;
   const bool covariance = has_covariance(entry.motion_covariance);
   body.byte(covariance ? 1 : 0);
+  body.varint(measurements.size());
+  body.part(part(Part::motion));
   if (covariance) exchange::pack(entry.motion_covariance, body);
-  for (const objects::Measurement& measurement : entry.measurements) {
-    if (packable(measurement, classes_)) {
-      exchange::pack(measurement, stamp, body);
-    } else {
-      ++left_out_;
-    }
-  }
+  for (const objects::Measurement* each : measurements) exchange::pack(*each, stamp, body);
   ByteWriter out;
-  out.text(body.bytes());
+  out.text(body.finish());
   return out.bytes();
 }
 
@@ -125,10 +137,11 @@ std::optional<UnpackedHistory> unpacked(std::string_view bytes) {
   if (!header) return std::nullopt;
   result.classes = static_cast<int>(classes);
   Before before;
+  Statistics statistics;
   for (result.bytes = in.at(); in.rest() > 0; result.bytes = in.at()) {
     const std::string_view body = in.text();
     if (in.failed()) break;
-    auto entry = unpacked_entry(before, result.classes, body);
+    auto entry = unpacked_entry(before, result.classes, {body, statistics});
     if (!entry) break;
     before = {entry->stamp, entry->T_odom_lidar};
     result.history.entries.push_back(std::move(*entry));

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "exchange/coded.h"
 #include "slam/history.h"
 
 /// A flight in bytes: a header, then one entry after another, so that what was packed earlier is
@@ -12,7 +13,8 @@
 ///
 /// Poses are relative to the previous one as it is unpacked, so that errors do not add up: 1 mm,
 /// 0.01°, 1 µs. Models: 1 mm, 0.01°, sizes 1 cm, radii 1 mm; class probabilities 1/64; covariances
-/// as in packed_covariance.h. About 50 bytes a measurement and 30 a pose.
+/// as in packed_covariance.h. All by what is usual in this flight (coded.h): about 30 bytes a
+/// measurement and 20 a pose.
 namespace saker::exchange {
 
 /// Packs the entries of one flight in their order.
@@ -24,7 +26,8 @@ class HistoryPacker {
   /// What every history begins with.
   [[nodiscard]] std::string header() const;
   /// The bytes of the next entry. Empty, and nothing changed, where stamp or pose is none;
-  /// measurements that are not finite, or of other classes, are left out and counted.
+  /// measurements that are not finite, of other classes, or more than 5000 are left out and
+  /// counted.
   [[nodiscard]] std::string pack(const slam::HistoryEntry& entry);
 
   [[nodiscard]] long left_out() const { return left_out_; }
@@ -35,6 +38,7 @@ class HistoryPacker {
   int classes_;
   Time stamp_ = 0;
   SE3 T_odom_lidar_ = SE3::Identity();  // of the last entry, as it is unpacked
+  Statistics statistics_;
   long left_out_ = 0;
 };
 

@@ -49,13 +49,13 @@ bool packable(const Cylinder& cylinder) {
          is_size(cylinder.height);
 }
 
-void pack(const Cuboid& cuboid, ByteWriter& out) {
+void pack(const Cuboid& cuboid, CodedWriter& out) {
   pack_steps(cuboid.pose.translation(), kPlaceStep, out);
   pack_steps(core::so3_log(cuboid.pose.rotation()), kAngleStep, out);
   pack_steps(cuboid.size, kSizeStep, out);
 }
 
-void pack(const Cylinder& cylinder, ByteWriter& out) {
+void pack(const Cylinder& cylinder, CodedWriter& out) {
   pack_steps(cylinder.root, kPlaceStep, out);
   pack_steps(cylinder.axis, kAxisStep, out);
   pack_steps(cylinder.radius, kPlaceStep, out);
@@ -63,13 +63,13 @@ void pack(const Cylinder& cylinder, ByteWriter& out) {
 }
 
 /// A number of steps; nothing where the size is above `most`.
-std::optional<double> unpacked_number(double step, double most, ByteReader& in) {
+std::optional<double> unpacked_number(double step, double most, CodedReader& in) {
   const double value = static_cast<double>(in.signed_varint()) * step;
   if (in.failed() || !(std::abs(value) <= most)) return std::nullopt;
   return value;
 }
 
-std::optional<Cuboid> unpacked_cuboid(ByteReader& in) {
+std::optional<Cuboid> unpacked_cuboid(CodedReader& in) {
   const auto place = unpacked_steps(kPlaceStep, kFarthest, in);
   const auto rotation = unpacked_steps(kAngleStep, kMostAngle, in);
   const auto size = unpacked_steps(kSizeStep, kMostSize, in);
@@ -81,7 +81,7 @@ std::optional<Cuboid> unpacked_cuboid(ByteReader& in) {
   return cuboid;
 }
 
-std::optional<Cylinder> unpacked_cylinder(ByteReader& in) {
+std::optional<Cylinder> unpacked_cylinder(CodedReader& in) {
   const auto root = unpacked_steps(kPlaceStep, kFarthest, in);
   const auto axis = unpacked_steps(kAxisStep, 1, in);
   const auto radius = unpacked_number(kPlaceStep, kMostSize, in);
@@ -92,7 +92,7 @@ std::optional<Cylinder> unpacked_cylinder(ByteReader& in) {
 }
 
 /// Which classes have any, a bit each; then a byte for each of these.
-void pack_probabilities(const Measurement& measurement, ByteWriter& out) {
+void pack_probabilities(const Measurement& measurement, CodedWriter& out) {
   std::vector<std::uint8_t> steps;
   for (const double p : measurement.class_probability) {
     steps.push_back(static_cast<std::uint8_t>(std::lround(p * kProbabilitySteps)));
@@ -109,7 +109,7 @@ void pack_probabilities(const Measurement& measurement, ByteWriter& out) {
   }
 }
 
-std::vector<double> unpacked_probabilities(int classes, ByteReader& in) {
+std::vector<double> unpacked_probabilities(int classes, CodedReader& in) {
   std::vector<double> probability(static_cast<std::size_t>(classes), 0.0);
   std::vector<bool> any;
   for (std::size_t first = 0; first < probability.size(); first += 8) {
@@ -133,7 +133,8 @@ unsigned flags_of(const Measurement& m, Time stamp) {
 }
 
 /// What is there of a measurement beside model and classes.
-bool read_rest(unsigned flags, ByteReader& in, Measurement& m) {
+bool read_rest(unsigned flags, CodedReader& in, Measurement& m) {
+  in.part(part(Part::rest, flags));
   const std::uint64_t points = in.varint();
   const auto log_odds = unpacked_number(kLogOddsStep, kMostLogOdds, in);
   const std::uint64_t cell = (flags & kViewCell) != 0 ? in.varint() : 0;
@@ -145,6 +146,7 @@ bool read_rest(unsigned flags, ByteReader& in, Measurement& m) {
   if ((flags & kViewCell) != 0) m.view_cell = static_cast<int>(cell);
   if ((flags & kReflectivity) != 0) m.reflectivity = in.byte() / kReflectivitySteps;
   if ((flags & kLengthSd) != 0) m.length_sd = unpacked_sd(in.byte());
+  in.part(part(Part::covariance, flags));
   if ((flags & kCovariance) != 0) {
     m.covariance = unpacked_covariance(rows_of((flags & kCylinder) != 0), in);
   }
@@ -158,15 +160,15 @@ Time to_step(Time stamp) {
   return stamp - (rest < 0 ? rest + kStampStep : rest);
 }
 
-void pack_steps(double value, double step, ByteWriter& out) {
+void pack_steps(double value, double step, CodedWriter& out) {
   out.signed_varint(std::llround(value / step));
 }
 
-void pack_steps(const Eigen::Vector3d& value, double step, ByteWriter& out) {
+void pack_steps(const Eigen::Vector3d& value, double step, CodedWriter& out) {
   for (const double v : value) pack_steps(v, step, out);
 }
 
-std::optional<Eigen::Vector3d> unpacked_steps(double step, double most, ByteReader& in) {
+std::optional<Eigen::Vector3d> unpacked_steps(double step, double most, CodedReader& in) {
   Eigen::Vector3d value;
   for (double& v : value) {
     const auto number = unpacked_number(step, most, in);
@@ -189,13 +191,17 @@ bool packable(const Measurement& m, int classes) {
          m.points >= 0 && std::visit([](const auto& model) { return packable(model); }, m.model);
 }
 
-void pack(const Measurement& m, Time stamp, ByteWriter& out) {
+void pack(const Measurement& m, Time stamp, CodedWriter& out) {
   const unsigned flags = flags_of(m, stamp);
+  out.part(part(Part::measurement));
   out.byte(static_cast<std::uint8_t>(flags));
+  out.part(part(Part::classes, flags));
   if ((flags & kOtherStamp) != 0) out.signed_varint((to_step(m.stamp) - stamp) / kStampStep);
   out.byte(m.class_id);
   pack_probabilities(m, out);
+  out.part(part(Part::model, flags));
   std::visit([&out](const auto& model) { pack(model, out); }, m.model);
+  out.part(part(Part::rest, flags));
   out.varint(static_cast<std::uint64_t>(m.points));
   pack_steps(m.front_log_odds, kLogOddsStep, out);
   if ((flags & kViewCell) != 0) out.varint(static_cast<std::uint64_t>(m.view_cell));
@@ -204,12 +210,15 @@ void pack(const Measurement& m, Time stamp, ByteWriter& out) {
         std::lround(std::clamp(m.reflectivity, 0.0, 1.0) * kReflectivitySteps)));
   }
   if ((flags & kLengthSd) != 0) out.byte(packed_sd(m.length_sd));
+  out.part(part(Part::covariance, flags));
   if ((flags & kCovariance) != 0) pack(m.covariance, out);
 }
 
-std::optional<Measurement> unpacked_measurement(Time stamp, int classes, ByteReader& in) {
+std::optional<Measurement> unpacked_measurement(Time stamp, int classes, CodedReader& in) {
   constexpr double kMostStampSteps = 1e9;  // a measurement is of its entry's time, give or take
+  in.part(part(Part::measurement));
   const unsigned flags = in.byte();
+  in.part(part(Part::classes, flags));
   Measurement m;
   m.stamp = stamp;
   if ((flags & kOtherStamp) != 0) {
@@ -221,6 +230,7 @@ std::optional<Measurement> unpacked_measurement(Time stamp, int classes, ByteRea
   m.class_probability = unpacked_probabilities(classes, in);
   if (m.class_id >= classes || !(m.class_probability[m.class_id] > 0)) return std::nullopt;
   const bool cylinder = (flags & kCylinder) != 0;
+  in.part(part(Part::model, flags));
   const auto model = cylinder ? std::optional<objects::Model>(unpacked_cylinder(in))
                               : std::optional<objects::Model>(unpacked_cuboid(in));
   if (!model) return std::nullopt;

@@ -275,6 +275,10 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
     observation.keyframe = to.serial;
     remember(landmark, observation);
   }
+  // What was flown past is a few observations from then on; hundreds were made room for.
+  if (landmark.observations.capacity() > 4 * landmark.observations.size()) {
+    landmark.observations.shrink_to_fit();
+  }
 }
 
 void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config) {

@@ -52,4 +52,18 @@ Eigen::VectorXd common_variances(const Model& model, const MeasurementNoiseConfi
   return sd.cwiseAbs2();
 }
 
+Eigen::MatrixXd widened(const Model& model, const Eigen::MatrixXd& covariance,
+                        const MeasurementNoiseConfig& config) {
+  Eigen::VectorXd windows = Eigen::VectorXd::Ones(covariance.rows());
+  if (is_cuboid(model)) {
+    windows.segment<2>(3).setConstant(config.shared_place);
+    windows.segment<2>(6) << config.shared_length, config.shared_width;
+  } else {
+    windows.head<2>().setConstant(config.shared_root);
+    windows[5] = config.shared_radius;
+  }
+  const Eigen::VectorXd sd = windows.cwiseSqrt();
+  return sd.asDiagonal() * covariance * sd.asDiagonal();
+}
+
 }  // namespace saker::slam

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "slam/flight_lengths.h"
+
 namespace saker::slam {
 namespace {
 
@@ -83,10 +85,10 @@ MergeReport MultiRobotSlam::add(const History& history,
     integrate(history.entries[k], static_cast<int>(chain), report);
     ++report.entries;
     if (report.entries % config_.merge.track_every == 0) track(chain);
-    if (report.entries % config_.merge.loop_every == 0) close_loop(chain, report);
+    if (report.entries % config_.merge.loop_every == 0 && close_loop(chain, report)) spread(chain);
   }
   track(chain);
-  close_loop(chain, report);
+  (void)close_loop(chain, report);
   settle(budget, report);
   return report;
 }
@@ -196,10 +198,11 @@ void MultiRobotSlam::track(std::size_t chain) {
                     core::Budget::iterations(config_.merge.track_iterations));
 }
 
-void MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
+/// True where one was closed: poses and objects lie about where they belong, to be solved.
+bool MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
   std::vector<Keyframe>& keyframes = flights_[chain].keyframes;
   const int since = static_cast<int>(keyframes.size()) - config_.merge.loop_keyframes;
-  if (since <= 0) return;
+  if (since <= 0) return false;
   std::vector<const Landmark*> recent, older;
   for (const Landmark& landmark : landmarks_) {
     if (!seen_from(landmark, static_cast<int>(chain), since)) older.push_back(&landmark);
@@ -212,12 +215,24 @@ void MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
   const Alignment loop =
       align(survey(older, [&](std::size_t c, const Keyframe& k) { return !is_recent(c, k); }),
             survey(recent, is_recent), config_.merge.constellation, bounds);
-  if (loop.status != AlignmentStatus::accepted) return;
+  if (loop.status != AlignmentStatus::accepted) return false;
   ++report.loops;
   for (std::size_t k = static_cast<std::size_t>(since); k < keyframes.size(); ++k)
     keyframes[k].T_world_lidar = loop.T_a_b.pose * keyframes[k].T_world_lidar;
   join(loop);
-  solve_narrowing(core::Budget::iterations(config_.merge.iterations));
+  return true;
+}
+
+/// Over this flight, what closing a loop moved its end by; the others' wait for the final solves.
+void MultiRobotSlam::spread(std::size_t chain) {
+  std::vector<Chain> all = chains();
+  for (std::size_t c = 0; c < all.size(); ++c)
+    if (c != chain) all[c].free_from = all[c].keyframes->size();
+  GraphConfig graph = config_.graph;
+  graph.iterations = config_.merge.iterations;
+  graph.robust_scale *= config_.merge.first_scale;
+  (void)solve_graph(all, pointers(landmarks_), graph,
+                    core::Budget::iterations(config_.merge.iterations));
 }
 
 /// Recent objects follow the correction; those that are old ones become one with them.
@@ -248,11 +263,16 @@ SolveReport MultiRobotSlam::solve_narrowing(const core::Budget& budget) {
 void MultiRobotSlam::settle(const core::Budget& budget, MergeReport& report) {
   report.solve = solve_narrowing(budget);
   const int joined = merge_duplicates(landmarks_, config_.duplicates, landmark_config_);
-  report.split = split();
-  if (joined + report.split == 0) return;
+  const int apart = split();
+  // Two objects cannot stand on one ground: there a flight mismeasured the one that it saw.
+  const int rejoined = merge_duplicates(landmarks_, config_.duplicates, landmark_config_);
+  report.split = apart - rejoined;
   GraphConfig graph = config_.graph;
   graph.iterations = config_.merge.iterations;
-  report.solve = solve_graph(chains(), pointers(landmarks_), graph, budget);
+  if (joined + apart > 0) {
+    report.solve = solve_graph(chains(), pointers(landmarks_), graph, budget);
+  }
+  weigh_flights(landmarks_, chains(), graph, budget);
 }
 
 /// Where one flight's measurements of an object lie far from those of another flight they are of

@@ -86,7 +86,8 @@ class MultiRobotSlam {
   void integrate(const HistoryEntry& entry, int chain, MergeReport& report);
   void take_back(const std::vector<Candidate>& moving, int chain);
   void track(std::size_t chain);
-  void close_loop(std::size_t chain, MergeReport& report);
+  bool close_loop(std::size_t chain, MergeReport& report);
+  void spread(std::size_t chain);
   void join(const Alignment& loop);
   SolveReport solve_narrowing(const core::Budget& budget);
   void settle(const core::Budget& budget, MergeReport& report);

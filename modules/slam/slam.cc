@@ -88,8 +88,7 @@ void Slam::retire() {
     ground_.retire(*retired);
     hand_over_from(*retired);
   }
-  const auto movable = static_cast<std::size_t>(config_.graph.movable_keyframes);
-  if (keyframes.size() > movable + 1) hand_over_from(keyframes[keyframes.size() - movable - 1]);
+  if (const std::size_t held = chain().free_from; held > 0) hand_over_from(keyframes[held - 1]);
 }
 
 std::vector<Candidate> Slam::accepted(const objects::Detections& detections,
@@ -209,6 +208,19 @@ Slam::MapWithCovariance Slam::map_with_covariance() const {
     result.map.objects[i].covariance = std::move(report.covariances[i]);
   }
   return result;
+}
+
+objects::ObjectMap Slam::reported_map() const {
+  objects::ObjectMap map = map_with_covariance().map;
+  MeasurementNoiseConfig noise = config_.noise;
+  if (config_.measurement_noise == NoiseSource::fitted) {  // cells count once; of radii windows do
+    noise.shared_place = noise.shared_length = noise.shared_width = noise.shared_root = 1;
+  }
+  for (objects::MapObject& object : map.objects) {
+    if (object.covariance.size() == 0) continue;
+    object.covariance = widened(object.model, object.covariance, noise);
+  }
+  return map;
 }
 
 CovarianceReport Slam::covariance(std::span<const int> ids) const {

@@ -124,6 +124,9 @@ class Slam {
   };
   [[nodiscard]] MapWithCovariance map_with_covariance() const;
 
+  /// The same as it is given out: widened by what windows share (with fitted noise of radii only).
+  [[nodiscard]] objects::ObjectMap reported_map() const;
+
   /// Covariances of the named objects, in the order of `ids`; empty matrices for ids that are not
   /// in the map.
   [[nodiscard]] CovarianceReport covariance(std::span<const int> ids) const;

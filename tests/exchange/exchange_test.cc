@@ -167,6 +167,29 @@ TEST(Exchange, DifferentBytesUnderOneNameAreNotMixed) {
   EXPECT_EQ(ends.robot.exchange().counters().peers.conflicts, 1);
 }
 
+TEST(Exchange, ASecondCounterpartOnTheChannelIsAStrangerAsLongAsTheFirstIsHeard) {
+  const auto folder = test_folder();
+  TwoEnds ends(folder, {.loss = 0}, 11);
+  MemoryStore empty;
+  Exchange second({}, "BASE2", test_key(), folder / "second", empty);
+  second.add_link("R1_EXCHANGE", Role::calls);
+  const auto counterpart = [&] { return ends.robot.exchange().contacts(ends.now).front(); };
+  const auto second_calls = [&] {
+    const auto datagram = second.next(ends.now);
+    ASSERT_TRUE(datagram);
+    ends.robot.exchange().receive(ends.now, "R1_EXCHANGE", datagram->bytes);
+  };
+  while (!counterpart().in_contact) ends.step();  // `run` ends at once: the stores are empty
+  second_calls();
+  EXPECT_EQ(ends.robot.exchange().counters().strangers, 1);
+  EXPECT_EQ(counterpart().counterpart, "BASE");
+  ends.in_reach = false;
+  while (counterpart().in_contact) ends.step();
+  second_calls();
+  EXPECT_EQ(ends.robot.exchange().counters().strangers, 1);
+  EXPECT_EQ(counterpart().counterpart, "BASE2");
+}
+
 /// A store whose disk is full.
 class FullStore : public MemoryStore {
  protected:

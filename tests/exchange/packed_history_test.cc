@@ -234,16 +234,23 @@ TEST(PackedHistory, TenMinutesFitInto200Kilobytes) {
   EXPECT_LT(packed(some_history(600, 4, 7), kClasses).size(), 200'000u);
 }
 
+Eigen::MatrixXd there_and_back(const Eigen::MatrixXd& covariance) {
+  Statistics writers, readers;
+  CodedWriter out(writers);
+  pack(covariance, out);
+  const std::string bytes = out.finish();
+  CodedReader in(bytes, readers);
+  const Eigen::MatrixXd back = unpacked_covariance(static_cast<int>(covariance.rows()), in);
+  EXPECT_TRUE(in.done());
+  return back;
+}
+
 TEST(PackedCovariance, StandardDeviationsAreRightToFivePercentAndTheMatrixIsPositiveDefinite) {
   core::Rng rng(1);
   for (int round = 0; round < 500; ++round) {
     const int rows = rng.chance(0.5) ? 6 : 9;
     const Eigen::MatrixXd covariance = some_covariance(rng, rows);
-    ByteWriter out;
-    pack(covariance, out);
-    ByteReader in(out.bytes());
-    const Eigen::MatrixXd back = unpacked_covariance(rows, in);
-    EXPECT_TRUE(in.done());
+    const Eigen::MatrixXd back = there_and_back(covariance);
     EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(back).info(), Eigen::Success);
     for (int i = 0; i < rows; ++i) {
       EXPECT_NEAR(std::sqrt(back(i, i) / covariance(i, i)), 1, 0.045);
@@ -258,13 +265,20 @@ TEST(PackedCovariance, WeighsErrorsAsTheOriginalWithinAFifth) {
   constexpr int kRounds = 500;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::MatrixXd covariance = some_covariance(rng, 6);
-    ByteWriter out;
-    pack(covariance, out);
-    ByteReader in(out.bytes());
-    const Eigen::MatrixXd back = unpacked_covariance(6, in);
+    const Eigen::MatrixXd back = there_and_back(covariance);
     ratio += (back.inverse() * covariance).trace() / 6 / kRounds;  // mean NEES a degree of freedom
   }
   EXPECT_NEAR(ratio, 1, 0.2);
+}
+
+/// Where sums of partial correlations do not hide it.
+TEST(PackedCovariance, TwoNumbersCorrelationIsRightToATwentieth) {
+  for (int percent = -99; percent <= 99; ++percent) {
+    const double correlation = 0.01 * percent;
+    const Eigen::Matrix2d back =
+        there_and_back((Eigen::Matrix2d() << 1, correlation, correlation, 1).finished());
+    EXPECT_NEAR(back(0, 1) / std::sqrt(back(0, 0) * back(1, 1)), correlation, 0.05);
+  }
 }
 
 TEST(PackedCovariance, AnyBytesGiveASymmetricFiniteMatrix) {
@@ -272,7 +286,8 @@ TEST(PackedCovariance, AnyBytesGiveASymmetricFiniteMatrix) {
   for (int round = 0; round < 5000; ++round) {
     std::string bytes(40, '\0');
     for (char& byte : bytes) byte = static_cast<char>(rng.index(256));
-    ByteReader in(bytes);
+    Statistics statistics;
+    CodedReader in(bytes, statistics);
     const Eigen::MatrixXd back = unpacked_covariance(9, in);
     ASSERT_TRUE(back.allFinite());
     ASSERT_TRUE(back.isApprox(back.transpose()));

@@ -17,7 +17,7 @@ class Exchange(NamespaceTest):
         base = self.start_base()
         robot = self.start_robot("R1", LONG_HISTORY, loss=0.3)
         for kill in range(1, 6):
-            self.wait(lambda: self.stored_bytes("R1") > LONG_HISTORY * kill / 7, 60, f"bytes before kill {kill}")
+            self.wait(lambda: self.stored_bytes("R1") > LONG_HISTORY * kill / 10, 60, f"bytes before kill {kill}")
             base.kill()
             base.wait()
             self.assertLess(self.stored_bytes("R1"), LONG_HISTORY, "killed after the transfer, not in it")
@@ -43,7 +43,7 @@ class Exchange(NamespaceTest):
         base = self.start_base()
         for kill in range(1, 6):
             robot = self.start_robot("R1", LONG_HISTORY, loss=0.3)
-            self.wait(lambda: self.stored_bytes("R1") > LONG_HISTORY * kill / 7, 60, f"bytes before kill {kill}")
+            self.wait(lambda: self.stored_bytes("R1") > LONG_HISTORY * kill / 10, 60, f"bytes before kill {kill}")
             robot.kill()
             robot.wait()
         robot = self.start_robot("R1", LONG_HISTORY, loss=0.3)

@@ -29,17 +29,13 @@ class ABaseStation : public testing::Test {
       link.add_link(channel, exchange::Role::calls);
       bus.subscribe_all<exchange_t>([this](const std::string& robot, const exchange_t& message) {
         if (robot + "_EXCHANGE" != channel) return false;
-        const std::string bytes(message.data.begin(), message.data.end());
-        return link.receive(now(), channel, bytes) == exchange::Verdict::genuine;
+        return link.receive(now(), channel, datagram_of(message)) == exchange::Verdict::genuine;
       });
     }
 
     void send() {
       while (const auto datagram = link.next(now())) {
-        exchange_t message{};
-        message.data.assign(datagram->bytes.begin(), datagram->bytes.end());
-        message.num_data = static_cast<std::int32_t>(message.data.size());
-        bus.publish_as(robot_of(datagram->channel), message);
+        bus.publish_as(robot_of(datagram->channel), to_lcm(0, datagram->bytes));
       }
     }
 

@@ -92,7 +92,7 @@ void run(const Options& options) {
   Bus bus = Bus::on_network(options.url, BusConfig{}.receive_buffer_kb, options.robot);
   Air up(options.loss), down(options.loss);
   bus.subscribe<exchange_t>([&](const exchange_t& message) {
-    down.pass({message.data.begin(), message.data.end()}, [&](const std::string& arrived) {
+    down.pass(std::string(datagram_of(message)), [&](const std::string& arrived) {
       (void)link.receive(now(), channel_name<exchange_t>(options.robot), arrived);
     });
     return true;
@@ -100,13 +100,8 @@ void run(const Options& options) {
   while (!stop) {
     bus.handle(std::chrono::milliseconds(20));
     while (const auto datagram = link.next(now())) {
-      up.pass(datagram->bytes, [&](const std::string& departs) {
-        exchange_t message{};
-        message.utime = system_utime();
-        message.data.assign(departs.begin(), departs.end());
-        message.num_data = static_cast<std::int32_t>(message.data.size());
-        bus.publish(message);
-      });
+      up.pass(datagram->bytes,
+              [&](const std::string& departs) { bus.publish(to_lcm(system_utime(), departs)); });
     }
   }
   save(store, link, options);

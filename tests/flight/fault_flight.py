@@ -37,7 +37,7 @@ class Row:
 class Flight:
     """Simulator, collision checker and executive; `end` them, whatever happens."""
 
-    def __init__(self, folder, event=""):
+    def __init__(self, folder, event="", settings=()):
         self.folder, self.processes = pathlib.Path(folder), {}
         scenario = self.folder / "scenario.yaml"
         scenario.write_text(SCENARIO.read_text() + (f"  events: [{event}]\n" if event else ""))
@@ -46,7 +46,8 @@ class Flight:
         self.wait(lambda: (self.site / "metadata.json").exists(), 20, "a site")
         config = ("--config", self.site / "site.yaml")
         self.start("saker-collision-checker", *config)
-        self.start("saker-flight", *config, *TWO_SIDES, "--prior", self.site / "prior.json", "--meta",
+        own = [word for setting in settings for word in ("--set", setting)]
+        self.start("saker-flight", *config, *TWO_SIDES, *own, "--prior", self.site / "prior.json", "--meta",
                    self.site / "metadata.json", "-o", self.out)
 
     def start(self, name, *arguments):

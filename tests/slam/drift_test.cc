@@ -100,5 +100,31 @@ TEST(Drift, FlightsWithUnknownTakeOffsBecomeOneMap) {
   EXPECT_EQ(merged.flights().size(), 2U);
 }
 
+/// One robot flies on over where it began. Where drift has carried its own objects out of the gates
+/// of association, constellations find them again.
+TEST(Drift, ALoopOf300MetresThatDriftOpenedByMetresIsClosedInOneFlightsOwnMap) {
+  constexpr double kRadius = 47.8, kRounds = 1.35;
+  double opened = 0, closed = 0;
+  int loops = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto world = irregular_ring(kRadius, 45, seed);
+    const Flown flown = fly(world, loop(kRadius, 0.6, kRounds), drifting(0.0025), seed, 15, 0);
+    MultiRobotSlam graph(honest_config(), {});
+    const MergeReport report = graph.add(
+        flown.history, PosePrior{flown.T_town_odom, 1e-8 * Matrix6d::Identity()}, kPlenty);
+    const double end = end_error(graph.flights()[0], flown);
+    std::printf("seed %d: odometry ends %.2f m off, the graph %.2f m; %d constellations\n",
+                static_cast<int>(seed), odometry_end_error(flown), end, report.loops);
+    EXPECT_LT(end, 1);
+    EXPECT_LE(graph.map().objects.size(), world.size());  // nothing twice
+    opened += odometry_end_error(flown);
+    closed += end;
+    loops += report.loops;
+  }
+  EXPECT_GT(opened / 5, 3);
+  EXPECT_LT(closed, 0.2 * opened);
+  EXPECT_GE(loops, 1);
+}
+
 }  // namespace
 }  // namespace saker::slam

@@ -64,6 +64,33 @@ TEST(MeasurementNoise, AFittedCovarianceOfTheRootStaysAsItIs) {
   EXPECT_NEAR(P(3, 3), pole.covariance(3, 3) + lean * lean, 1e-12);
 }
 
+/// Windows that share one error say as much as one of them: the mean of n windows in groups of k
+/// has k times the variance that n windows of their own would have.
+TEST(MeasurementNoise, AMapIsWidenedByTheWindowsThatCountForOneAndKeepsItsCorrelations) {
+  const MeasurementNoiseConfig config{.shared_place = 9,
+                                      .shared_length = 4,
+                                      .shared_width = 1,
+                                      .shared_root = 16,
+                                      .shared_radius = 25};
+  core::Rng rng(3);
+  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(9, 9, [&] { return rng.normal(0, 1); });
+  const Eigen::MatrixXd P = root * root.transpose();
+  const Eigen::MatrixXd wide = widened(car(5, 0, 0.3), P, config);
+  const Vector9d factors = (Vector9d() << 1, 1, 1, 9, 9, 1, 4, 1, 1).finished();
+  EXPECT_TRUE(wide.diagonal().isApprox(P.diagonal().cwiseProduct(factors)));
+  EXPECT_NEAR(wide(3, 6) / std::sqrt(wide(3, 3) * wide(6, 6)),
+              P(3, 6) / std::sqrt(P(3, 3) * P(6, 6)), 1e-12);
+  EXPECT_EQ(wide.llt().info(), Eigen::Success);
+
+  const Eigen::MatrixXd six = P.topLeftCorner<6, 6>();
+  const Eigen::VectorXd of_trunk = widened(trunk(4, 1), six, config).diagonal();
+  EXPECT_NEAR(of_trunk[0], 16 * six(0, 0), 1e-9);
+  EXPECT_NEAR(of_trunk[1], 16 * six(1, 1), 1e-9);
+  EXPECT_EQ(of_trunk[2], six(2, 2));
+  EXPECT_EQ(of_trunk[3], six(3, 3));
+  EXPECT_NEAR(of_trunk[5], 25 * six(5, 5), 1e-9);
+}
+
 /// What the flights showed: every trunk seems to lean away from the robot, every vehicle is lower
 /// from afar. Neither may bend the path more than odometry does.
 TEST(MeasurementNoise, ErrorsThatDependOnTheViewDoNotTurnTheRobot) {

@@ -151,6 +151,24 @@ TEST(Merge, AFifthOfWrongMatchesDoesNotBreakTheMap) {
   EXPECT_LT(mean(of_true_ones), 1.5 * mean(place_errors(right_map, world)));
 }
 
+/// The second robot sees of each vehicle little more than one half.
+TEST(Merge, AVehicleThatAFlightMismeasuredIsNotTwo) {
+  const auto world = ring_of_objects(20, 10);
+  auto halves = world;
+  for (TrueObject& object : halves) {
+    if (auto* cuboid = std::get_if<Cuboid>(&object.model)) {
+      cuboid->pose.translation() -= 0.85 * cuboid->pose.linear().col(0);
+      cuboid->size.x() -= 1.7;
+    }
+  }
+  const Flown first = fly(world, loop(20, 0.6, 1), {}, 81),
+              second = fly(halves, loop(20, 0.6, 1), {}, 82);
+  MultiRobotSlam merged(honest_config(), {});
+  (void)merged.add(first.history, exact(first.T_town_odom), kPlenty);
+  (void)merged.add(second.history, exact(second.T_town_odom), kPlenty);
+  EXPECT_EQ(merged.map().objects.size(), 20U);
+}
+
 /// Measurements at random belong to other objects, anywhere on the ring, in the graph itself.
 TEST(Merge, NarrowingKernelsShrugOffAFifthOfWrongObservations) {
   const auto world = ring_of_objects(20, 10);

@@ -111,6 +111,31 @@ TEST(Slam, CovarianceIsConsistentWithTheErrors) {
   EXPECT_LT(squared / dimensions, 1.3);
 }
 
+/// With fitted noise cells share it instead, but for radii, of which no fitted model knows.
+TEST(Slam, WhatWindowsShareWidensWhatIsReported) {
+  for (const NoiseSource source : {NoiseSource::fixed, NoiseSource::fitted}) {
+    SlamConfig config = honest_config();
+    config.measurement_noise = source;
+    Drive drive(config, Robot(ring_of_objects(12, 5), {}, 1));
+    drive.along(loop(12, 1, 1));
+    const objects::ObjectMap own = drive.slam.map_with_covariance().map;
+    const objects::ObjectMap reported = drive.slam.reported_map();
+    ASSERT_EQ(reported.objects.size(), own.objects.size());
+    const bool all = source == NoiseSource::fixed;
+    for (std::size_t i = 0; i < own.objects.size(); ++i) {
+      const Eigen::VectorXd wider = reported.objects[i].covariance.diagonal().cwiseQuotient(
+          own.objects[i].covariance.diagonal());
+      if (is_cuboid(own.objects[i].model)) {
+        EXPECT_NEAR(wider[6], all ? config.noise.shared_length : 1, 1e-9);
+        EXPECT_NEAR(wider[8], 1, 1e-9);
+      } else {
+        EXPECT_NEAR(wider[0], all ? config.noise.shared_root : 1, 1e-9);
+        EXPECT_NEAR(wider[5], config.noise.shared_radius, 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Slam, TwoRunsAreIdentical) {
   std::string maps[2];
   for (std::string& bytes : maps) {

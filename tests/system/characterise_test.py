@@ -113,20 +113,19 @@ class Fly(ProgramTest):
     def fly(self, out, *more):
         scenario = self.folder / "spiral.yaml"
         scenario.write_text(SPIRAL)
-        run = saker("characterise", "fly", "-o", out, "--scenario", scenario, "--objects", 2,
-                    "--classes", "vehicle", *more)
+        run = saker("characterise", "fly", "-o", out, "--scenario", scenario, "--classes", "vehicle", *more)
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_a_resumed_run_gives_the_same_bytes_and_flies_only_what_is_missing(self):
         out = self.folder / "out"
-        self.fly(out)
+        self.fly(out, "--objects", 2)
         files = [out / "samples.csv", out / "coverage.csv"]
         once = [file.read_bytes() for file in files]
         kept = (out / "flights/00000.csv").stat().st_mtime_ns
         (out / "flights/00001.csv").unlink()
         for file in files:
             file.unlink()
-        self.fly(out, "--threads", 2)
+        self.fly(out, "--objects", 2, "--threads", 2)
         self.assertEqual([file.read_bytes() for file in files], once)
         self.assertEqual((out / "flights/00000.csv").stat().st_mtime_ns, kept)
 
@@ -137,6 +136,15 @@ class Fly(ProgramTest):
         self.assertLess(errors[len(errors) // 2], 0.5)
         # What was flown with one seed is not mixed with another's.
         self.assertIn("holds", self.refused("characterise", "fly", "-o", out, "--seed", 2))
+
+
+    def test_flies_without_a_fitted_model_whatever_is_configured(self):
+        """A model fitted to what a model had corrected would feed on itself."""
+        once, again = self.folder / "once", self.folder / "again"
+        self.fly(once, "--objects", 1)
+        self.fly(again, "--objects", 1, "--set", "slam.measurement_noise=fitted", "--set",
+                 f"uncertainty.model={self.folder / 'none.yaml'}")
+        self.assertEqual((once / "samples.csv").read_bytes(), (again / "samples.csv").read_bytes())
 
 
 class FlyRefuses(ProgramTest):

@@ -92,6 +92,29 @@ TEST(ExperimentTable, ShowsTheDistributionBesideMeanAndSpread) {
   EXPECT_GT(quantiles["95"].get<double>(), 0.35);
 }
 
+TEST(ExperimentTable, PoolsConsistencyByObjectsNotByRuns) {
+  const auto with = [](int objects, double nees) {
+    Json flown = run("street", "visit", {}, 1);
+    const Json size = objects > 0 ? Json(nees) : Json();
+    flown["consistency"] = {{"trunk",
+                             {{"size_objects", objects},
+                              {"size_nees", size},
+                              {"place_objects", 0},
+                              {"place_nees", nullptr}}}};
+    return flown;
+  };
+  const auto rows = pool({with(3, 1.0), with(0, NAN), with(1, 5.0), run("street", "visit", {}, 1)});
+  ASSERT_EQ(rows.size(), 1U);
+  const Json trunks = row_json(rows[0])["consistency"]["trunk"];
+  EXPECT_EQ(trunks["size_objects"], 4);
+  EXPECT_DOUBLE_EQ(trunks["size_nees"].get<double>(), 2.0);
+  EXPECT_TRUE(trunks["place_nees"].is_null());
+  const std::string text = consistency_text(rows);
+  EXPECT_NE(text.find("trunk"), std::string::npos);
+  EXPECT_NE(text.find("2.00"), std::string::npos);
+  EXPECT_EQ(consistency_text(pool({run("street", "visit", {}, 1)})), "");
+}
+
 TEST(ExperimentTable, TextHasALineForEachRowUnderItsHeads) {
   const std::string text = table_text(pool({run("street", "visit", {{0.4, 0.4}}, 1)}));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);

@@ -71,6 +71,32 @@ class Mission(ProgramTest):
         line = self.refused("mission", self.file, "-o", self.out, *AT_ONCE, "--set", "slam.landmarks.most=999")
         self.assertIn("holds results", line)
 
+    def test_several_seeds_have_folders_and_one_table_that_is_made_again_without_flying(self):
+        self.run_at_once("--runs", "2", "--seed", "5")
+        self.assertEqual({p.name for p in self.out.iterdir()},
+                         {"seed-5", "seed-6", "log.txt", "mission.json", "results.json", "table.txt"})
+        table = json.loads((self.out / "results.json").read_text())
+        self.assertEqual([row["robot"] for row in table["table"]], ["R1", "R2", "together"])
+        self.assertEqual([row["targets"] for row in table["table"]][2], 8)
+        self.assertEqual([c["against"] for c in table["comparisons"]], ["robots' mean", "R1", "R2"])
+        kept = (self.out / "seed-6" / "R1" / "results.json").stat().st_mtime_ns
+        before = (self.out / "table.txt").read_bytes()
+        (self.out / "table.txt").unlink()
+        (self.out / "results.json").unlink()
+        self.run_at_once("--runs", "2", "--seed", "5")
+        self.assertEqual((self.out / "table.txt").read_bytes(), before)
+        self.assertEqual((self.out / "seed-6" / "R1" / "results.json").stat().st_mtime_ns, kept)
+
+    def test_robots_that_fly_as_if_at_once_hear_nothing_of_each_other_and_share_the_work(self):
+        self.file = write_mission(self.folder, "  - {name: R1, x_m: -3}\n  - {name: R2, x_m: 3}\n",
+                                  more="at_once: true\ndivision: {by_work: true}\n")
+        self.run_at_once()
+        robots = json.loads((self.out / "results.json").read_text())["robots"]
+        self.assertEqual(sum(robot["targets"] for robot in robots), 4)
+        self.assertTrue(all(robot["targets"] > 0 and robot["exchange_complete"] for robot in robots))
+        told = json.loads((self.out / "R2" / "prior.json").read_text())["objects"]
+        self.assertEqual([entry["observations"] for entry in told], [0] * robots[1]["targets"])
+
     def test_a_mission_file_that_cannot_be_flown_is_refused_in_one_line(self):
         def refusal(**how):
             return self.refused("mission", write_mission(self.folder, **how), "-o", self.out)
@@ -81,6 +107,7 @@ class Mission(ProgramTest):
         self.assertIn("robots[1].name", refusal(robots="  - {name: R1}\n  - {name: R1}\n"))
         self.assertIn("robots[0].name", refusal(robots="  - {name: small}\n"))
         self.assertIn("lot_m", refusal(robots="  - {name: R1, lot_m: [0, 0, 1]}\n"))
+        self.assertIn("by_work", refusal(more="division: {by_work: true}\n"))
         self.assertIn("lot_m", refusal(robots="  - {name: R1, lot_m: [500, 500, 501, 500, 501, 501]}\n"))
         self.assertIn("x_m", refusal(robots="  - {name: R1, x_m: .nan}\n"))
         self.assertIn("policy", refusal(robots="  - {name: R1, policy: best}\n"))

@@ -7,7 +7,8 @@ import unittest
 from missions import fly, memory_of
 from program import ProgramTest
 
-FOUR_SIDES = ("--set", "active.visit.sides=4", "--set", "active.visit.separation_deg=60")
+FOUR_SIDES = ("--set", "active.visit.sides=4", "--set", "active.visit.separation_deg=60",
+              "--set", "active.visit.oblique_worth_m=10")
 RUNS = int(os.environ.get("SAKER_MISSIONS", "5"))
 
 

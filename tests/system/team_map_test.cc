@@ -53,6 +53,14 @@ TEST(NextPrior, EndsWhereTheLotEnds) {
   EXPECT_EQ(ids(next_prior(said, mapped, lot, 3, kTable)), (std::vector<int>{1}));
 }
 
+TEST(NextPrior, LeavesATargetInTheLotInWhichItWasSaidToBe) {
+  const Lot west({-9, -5, 0, -5, 0, 5, -9, 5}), east({0, -5, 9, -5, 9, 5, 0, 5});
+  const objects::ObjectMap said{.frame = "base", .objects = {car(1, 0.5, 0)}, .ground = {}};
+  const objects::ObjectMap mapped{.frame = "base", .objects = {car(0, -0.5, 0, 0.1)}, .ground = {}};
+  EXPECT_TRUE(next_prior(said, mapped, west, 3, kTable).objects.empty());
+  EXPECT_EQ(ids(next_prior(said, mapped, east, 3, kTable)), (std::vector<int>{1}));
+}
+
 TEST(Surveyed, ErrsAsMuchAsItsCovarianceSays) {
   const TakeoffSurveyConfig config{.place_sd_m = 0.2, .heading_sd_deg = 3};
   SE3 T_base_world = SE3::Identity();

@@ -20,6 +20,7 @@ using uncertainty::Sample;
 
 struct FitOptions {
   std::vector<std::string> samples, test;
+  std::string add_to;
   std::string pictures;
   uncertainty::Provenance provenance;
 };
@@ -80,19 +81,43 @@ void print_test(const uncertainty::Evaluation& test) {
                            test.confidence_error, test.constant_error);
 }
 
+std::string joined(const std::string& older, const std::string& newer) {
+  if (older.empty() || older == newer) return newer;
+  return newer.empty() ? older : older + "; " + newer;
+}
+
+/// What was fitted, and of the older model the classes that it lacks.
+uncertainty::Model added(const uncertainty::Model& older,
+                         std::vector<uncertainty::ClassModel> fitted,
+                         const uncertainty::Provenance& newer) {
+  std::set<objects::ClassId> known;
+  for (const uncertainty::ClassModel& model : fitted) known.insert(model.id);
+  for (const auto& [id, model] : older.classes()) {
+    if (!known.contains(id)) fitted.push_back(model);
+  }
+  const uncertainty::Provenance& from = older.provenance();
+  return uncertainty::Model(fitted,
+                            {joined(from.data, newer.data), joined(from.sensor, newer.sensor),
+                             joined(from.commit, newer.commit), newer.seed});
+}
+
 int fit(const FitOptions& options, const CommonOptions& common) {
-  const objects::ClassTable table = read_configuration(common).autonomy.objects;
+  const flight::ProcessConfig config = read_configuration(common);
+  const objects::ClassTable& table = config.autonomy.objects;
   const std::filesystem::path file = output_file(common.out, common.force);
   const std::vector<Sample> samples = read_all(options.samples, table);
   const std::vector<Sample> unseen = read_all(options.test, table);
   check_disjoint(samples, unseen);
   uncertainty::Provenance provenance = options.provenance;
   provenance.seed = common.seed;
-  const uncertainty::Model model(uncertainty::fit(samples, table, {}, common.seed), provenance);
-  for (const auto& [id, own] : model.classes()) {
-    print_fit(own, table[id].name);
-    print_regions(model, id);
-    if (!unseen.empty()) print_test(uncertainty::evaluate(model, id, unseen));
+  const auto older = options.add_to.empty() ? uncertainty::Model()
+                                            : uncertainty::Model::load(options.add_to, table);
+  const auto fitted = uncertainty::fit(samples, table, config.fit, common.seed);
+  const uncertainty::Model model = added(older, fitted, provenance);
+  for (const uncertainty::ClassModel& own : fitted) {
+    print_fit(own, table[own.id].name);
+    print_regions(model, own.id);
+    if (!unseen.empty()) print_test(uncertainty::evaluate(model, own.id, unseen));
   }
   model.save(file, table);
   if (options.pictures.empty()) return 0;
@@ -116,6 +141,9 @@ void add_characterise_fit(Commands& commands, CLI::App& group) {
   app.add_option("SAMPLES", options->samples, "measurements beside the truth (CSV)")->required();
   app.add_option("--test", options->test, "samples of other recordings, to judge the models by")
       ->type_name("SAMPLES");
+  app.add_option("--add-to", options->add_to,
+                 "an older model file, whose other classes are taken over")
+      ->type_name("FILE");
   app.add_option("--pictures", options->pictures, "folder for pictures of the models")
       ->type_name("DIR");
   app.add_option("--data", options->provenance.data, "what was flown, for the model file")

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -118,25 +120,35 @@ Json run_or_read(Job job, const fs::path& out) {
   return fly(job.run, folder);
 }
 
+/// Seed by seed: what an interrupted experiment leaves compares all scenarios and policies.
+std::vector<std::size_t> by_seed(const std::vector<Job>& jobs) {
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return jobs[i].run.seed; });
+  return order;
+}
+
 /// Missions side by side on all threads; results in the order of the jobs.
 std::vector<Json> fly_all(const std::vector<Job>& jobs, int threads, const fs::path& out) {
   if (jobs.size() == 1) {
     if (auto results = finished(out / jobs[0].folder)) return {*results};
     return {fly(jobs[0].run, out)};
   }
-  std::vector<std::future<Json>> flights;
+  const std::vector<std::size_t> order = by_seed(jobs);
+  std::vector<std::future<Json>> flights(jobs.size());
   core::TaskThreads side_by_side(threads);
-  for (const Job& job : jobs) {
+  for (const std::size_t i : order) {
     auto task = std::make_shared<std::packaged_task<Json()>>(
-        [&job, &out] { return run_or_read(job, out); });
-    flights.push_back(task->get_future());
+        [&job = jobs[i], &out] { return run_or_read(job, out); });
+    flights[i] = task->get_future();
     side_by_side.push([task] { (*task)(); });
   }
   core::Progress progress("missions", static_cast<long>(jobs.size()));
-  std::vector<Json> results;
-  for (std::future<Json>& flight : flights) {
-    results.push_back(flight.get());
-    progress.update(static_cast<long>(results.size()));
+  std::vector<Json> results(jobs.size());
+  long done = 0;
+  for (const std::size_t i : order) {
+    results[i] = flights[i].get();
+    progress.update(++done);
   }
   return results;
 }
@@ -175,7 +187,7 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     runs.push_back({out.path() / jobs[i].folder, results[i]});
   }
-  std::cout << write_report(runs, out.path());
+  std::cout << write_report(runs, read_configuration(common).autonomy.objects, out.path());
   return all_good ? 0 : 1;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/files.h"
+#include "objects/map_io.h"
 #include "saker/experiment_pictures.h"
 #include "saker/experiment_table.h"
 #include "saker/policy_comparison.h"
@@ -58,14 +59,25 @@ std::vector<std::pair<std::string, std::vector<CalibrationBin>>> calibrations_of
   return calibrations;
 }
 
+/// Runs that were flown before this figure was among the results still have their maps.
+Json with_consistency(const FlownRun& run, const objects::ClassTable& table) {
+  Json results = run.results;
+  const fs::path mapped = run.folder / "map.json", truth = run.folder / "truth.json";
+  if (results.contains("consistency") || !fs::exists(mapped) || !fs::exists(truth)) return results;
+  results["consistency"] =
+      consistency_figures(objects::read_map(mapped, table), objects::read_map(truth, table), table);
+  return results;
+}
+
 }  // namespace
 
-std::string write_report(const std::vector<FlownRun>& runs, const fs::path& out) {
+std::string write_report(const std::vector<FlownRun>& runs, const objects::ClassTable& table,
+                         const fs::path& out) {
   std::vector<Json> results;
-  for (const FlownRun& run : runs) results.push_back(run.results);
+  for (const FlownRun& run : runs) results.push_back(with_consistency(run, table));
   const std::vector<TableRow> rows = pool(results);
   const std::vector<PolicyComparison> comparisons = compare_policies(results);
-  std::string text = table_text(rows) + comparison_text(comparisons);
+  std::string text = table_text(rows) + consistency_text(rows) + comparison_text(comparisons);
   Json calibrated = Json::object();
   for (const auto& [policy, bins] : calibrations_of(runs)) {
     text += calibration_text(policy, bins);
@@ -75,13 +87,13 @@ std::string write_report(const std::vector<FlownRun>& runs, const fs::path& out)
   core::write_file(out / "table.txt", text);
   if (runs.size() == 1) return text;
 
-  Json table = Json::array(), compared = Json::array();
-  for (const TableRow& row : rows) table.push_back(row_json(row));
+  Json pooled = Json::array(), compared = Json::array();
+  for (const TableRow& row : rows) pooled.push_back(row_json(row));
   for (const PolicyComparison& c : comparisons) compared.push_back(comparison_json(c));
   write_error_picture(out / "errors.png", totals_of(rows));
   write_trajectory_picture(out / "trajectories.png", panels_of(runs), {});
   const Json all = {{"runs", runs.size()},
-                    {"table", table},
+                    {"table", pooled},
                     {"comparisons", compared},
                     {"calibration", calibrated}};
   core::write_file(out / "results.json", all.dump(2) + "\n");

@@ -26,6 +26,30 @@ void append(const std::vector<double>& values, std::vector<double>& to) {
   to.insert(to.end(), values.begin(), values.end());
 }
 
+void add_mean(const Json& figures, const std::string& of, ConsistencySum& to) {
+  const Json& mean = figures.at(of + "_nees");
+  if (!mean.is_number()) return;
+  const int objects = figures.at(of + "_objects");
+  to.objects += objects;
+  to.sum += objects * mean.get<double>();
+}
+
+void add(const ConsistencySum& more, ConsistencySum& to) {
+  to.objects += more.objects;
+  to.sum += more.sum;
+}
+
+Json consistency_json(const TableRow& row) {
+  Json classes = Json::object();
+  for (const auto& [name, c] : row.consistency) {
+    classes[name] = {{"size_objects", c.size.objects},
+                     {"size_nees", number(c.size.mean())},
+                     {"place_objects", c.place.objects},
+                     {"place_nees", number(c.place.mean())}};
+  }
+  return classes;
+}
+
 std::pair<std::string, int> world_of(const Json& run) {
   return {run.at("scenario").get<std::string>(), run.at("seed").get<int>()};
 }
@@ -78,6 +102,10 @@ void add(const TableRow& runs, TableRow& row) {
   append(runs.errors, row.errors);
   append(runs.size_nees, row.size_nees);
   append(runs.place_nees, row.place_nees);
+  for (const auto& [name, c] : runs.consistency) {
+    add(c.size, row.consistency[name].size);
+    add(c.place, row.consistency[name].place);
+  }
   append(runs.trajectory_errors, row.trajectory_errors);
   append(runs.flight_times, row.flight_times);
   append(runs.paths, row.paths);
@@ -96,6 +124,11 @@ void add(const Json& run, const Reached& reached, TableRow& row) {
     add_number(object.at("width_m"), row.errors);
     add_number(object.value("size_nees", Json()), row.size_nees);
     add_number(object.value("place_nees", Json()), row.place_nees);
+  }
+  const Json consistency = run.value("consistency", Json::object());
+  for (const auto& [name, figures] : consistency.items()) {
+    add_mean(figures, "size", row.consistency[name].size);
+    add_mean(figures, "place", row.consistency[name].place);
   }
   add_number(run.at("trajectory_error_m"), row.trajectory_errors);
   add_number(run.at("flight_time_s"), row.flight_times);
@@ -134,6 +167,7 @@ Json row_json(const TableRow& row) {
           {"size_nees", number(core::mean(row.size_nees))},
           {"place_nees", number(core::mean(row.place_nees))},
           {"quantiles_m", quantiles(row.errors)},
+          {"consistency", consistency_json(row)},
           {"mapped_share", number(row.mapped_share())},
           {"trajectory_error_m", number(core::mean(row.trajectory_errors))},
           {"collisions", row.collisions},
@@ -160,6 +194,22 @@ std::string table_text(const std::vector<TableRow>& rows) {
         core::mean(row.flight_times), core::mean(row.paths));
   }
   return text;
+}
+
+std::string consistency_text(const std::vector<TableRow>& rows) {
+  std::string text;
+  for (const TableRow& row : rows) {
+    for (const auto& [name, c] : row.consistency) {
+      text += fmt::format("{:<12} {:<8} {:<8} {:>9.2f} {:>7} {:>10.2f} {:>7}\n", row.scenario,
+                          row.policy, name, c.size.mean(), c.size.objects, c.place.mean(),
+                          c.place.objects);
+    }
+  }
+  if (text.empty()) return text;
+  return fmt::format("\nall mapped objects\n{:<12} {:<8} {:<8} {:>9} {:>7} {:>10} {:>7}\n",
+                     "scenario", "policy", "class", "size NEES", "objects", "place NEES",
+                     "objects") +
+         text;
 }
 
 }  // namespace saker::tools

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,19 @@
 #include <vector>
 
 namespace saker::tools {
+
+/// NEES a degree of freedom, summed over objects, so that runs can be put together.
+struct ConsistencySum {
+  int objects = 0;
+  double sum = 0;
+
+  [[nodiscard]] double mean() const { return objects > 0 ? sum / objects : NAN; }
+};
+
+/// Of the objects of one class.
+struct ClassConsistency {
+  ConsistencySum size, place;
+};
 
 /// Runs of one scenario with one policy, or of all scenarios, put together: errors of length and
 /// width over all objects of all runs, as the paper's first table.
@@ -20,10 +34,11 @@ struct TableRow {
   int reachable = 0;  ///< of them, as `Reached` says
   int found = 0;
   int collisions = 0;
-  std::vector<double> errors;                 ///< m, length and width, mapped − true
-  std::vector<double> size_nees, place_nees;  ///< a degree of freedom, one an object
-  std::vector<double> trajectory_errors;      ///< m, one a run
-  std::vector<double> flight_times, paths;    ///< s, m; one a run
+  std::vector<double> errors;                           ///< m, length and width, mapped − true
+  std::vector<double> size_nees, place_nees;            ///< a degree of freedom, one an object
+  std::map<std::string, ClassConsistency> consistency;  ///< by class, of all mapped objects
+  std::vector<double> trajectory_errors;                ///< m, one a run
+  std::vector<double> flight_times, paths;              ///< s, m; one a run
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs
 
   [[nodiscard]] double mapped_share() const;  ///< found of the reachable
@@ -48,5 +63,7 @@ void add(const TableRow& runs, TableRow& row);
 [[nodiscard]] nlohmann::ordered_json row_json(const TableRow& row);
 
 [[nodiscard]] std::string table_text(const std::vector<TableRow>& rows);
+/// A line a class of each row; empty where no run says it.
+[[nodiscard]] std::string consistency_text(const std::vector<TableRow>& rows);
 
 }  // namespace saker::tools

@@ -18,6 +18,20 @@ std::string cause_of(const autonomy::PlanningReport& report) {
 
 }  // namespace
 
+MissionRecorder::MissionRecorder(simulation::SimulatedVehicle& vehicle,
+                                 const std::filesystem::path& out, const objects::ClassTable& table,
+                                 std::shared_ptr<spdlog::logger> log, core::Progress* progress,
+                                 std::size_t most_scans)
+    : vehicle_(vehicle),
+      start_(vehicle.now()),
+      truth_(vehicle.true_map()),
+      detections_(out, table),
+      log_(std::move(log)),
+      progress_(progress) {
+  cloud_.reserve(std::min(kMostPoints, most_scans * 2 * kPointsPerScan));
+  true_poses_.reserve(most_scans);
+}
+
 void MissionRecorder::on_scan(const autonomy::IngestedScan& scan) {
   for (const simulation::ScanTruth& truth : vehicle_.take_scan_truth()) {
     true_poses_.push_back({to_seconds(truth.stamp), truth.T_world_lidar});
@@ -46,13 +60,12 @@ void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
   if (progress_ != nullptr && report.targets > 0) {
     progress_->update(report.visited + report.unreachable, report.targets);
   }
-  if (plan.goal && plan.goal->id != viewpoint_) {
-    viewpoint_ = plan.goal->id;
+  if (plan.goal && (flown_to_.empty() || flown_to_.back().second.id != plan.goal->id)) {
     flown_to_.emplace_back(report.stamp, *plan.goal);
     const Eigen::Vector3d& p = plan.goal->position;
     log_->debug("{:7.2f} s  target {}, {} pending: to viewpoint {} at ({:.1f}, {:.1f}, {:.1f})",
-                to_seconds(report.stamp - start_), plan.goal->target_id, plan.pending, viewpoint_,
-                p.x(), p.y(), p.z());
+                to_seconds(report.stamp - start_), plan.goal->target_id, plan.pending,
+                plan.goal->id, p.x(), p.y(), p.z());
   }
   using enum autonomy::PlanningStatus;
   if (report.status != refused && report.status != gave_up && report.status != home_unreachable) {

@@ -21,17 +21,12 @@ namespace saker::tools {
 /// and the comparison with the truth need; streams detections to OUT/detections.jsonl.
 class MissionRecorder : public autonomy::MissionObserver {
  public:
-  /// \param progress  over the targets; none where several missions go side by side
+  /// \param most_scans  of the longest mission: room for what it keeps of them is taken at once
+  /// \param progress    over the targets; none where several missions go side by side
   /// Throws Error where OUT cannot be written.
   MissionRecorder(simulation::SimulatedVehicle& vehicle, const std::filesystem::path& out,
                   const objects::ClassTable& table, std::shared_ptr<spdlog::logger> log,
-                  core::Progress* progress)
-      : vehicle_(vehicle),
-        start_(vehicle.now()),
-        truth_(vehicle.true_map()),
-        detections_(out, table),
-        log_(std::move(log)),
-        progress_(progress) {}
+                  core::Progress* progress, std::size_t most_scans);
 
   void on_scan(const autonomy::IngestedScan& scan) override;
   void on_map(const autonomy::MapSnapshot& map) override;
@@ -68,7 +63,6 @@ class MissionRecorder : public autonomy::MissionObserver {
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;
   std::vector<StampedPose> true_poses_;
-  int viewpoint_ = -1;  ///< that is flown to
   std::vector<std::pair<Time, active::Viewpoint>> flown_to_;
   std::map<std::string, int> refusals_;
   nlohmann::ordered_json events_ = nlohmann::ordered_json::array();

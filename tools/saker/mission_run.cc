@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "autonomy/local_checker.h"
@@ -176,10 +177,13 @@ Json fly(const MissionRun& run, const fs::path& out) {
                                     run.threads, timings);
   std::optional<core::Progress> progress;
   if (run.shows_progress) progress.emplace(run.scenario, task.targets.size());
-  MissionRecorder recorder(vehicle, out, config.objects, run.log, progress ? &*progress : nullptr);
+  const double longest = longest_s(config.mission);
+  MissionRecorder recorder(
+      vehicle, out, config.objects, run.log, progress ? &*progress : nullptr,
+      static_cast<std::size_t>(std::ceil(longest * vehicle.sensor().frame_rate_hz)));
   const double built_s = seconds_since(begin);
   const Time start = vehicle.now();
-  const autonomy::MissionResult result = mission.run(longest_s(config.mission), recorder);
+  const autonomy::MissionResult result = mission.run(longest, recorder);
   const double wall_s = seconds_since(begin) - built_s, flown_s = to_seconds(vehicle.now() - start);
 
   const objects::ObjectMap truth = vehicle.true_map();
@@ -192,6 +196,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
   const Json around = target_figures(result.map, truth, in_fence(truth, config), config.objects);
   results["in_fence"] = around["targets"];
   results["in_fence_found"] = around["found"];
+  results["consistency"] = consistency_figures(result.map, truth, config.objects);
   results.update(mission_figures(result, vehicle.truth()));
   const Json trajectory =
       trajectory_figures(result.scans, result.T_world_lidar, recorder.true_poses());

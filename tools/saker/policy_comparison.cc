@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 #include "core/statistics.h"
 #include "saker/experiment_table.h"
@@ -85,25 +87,11 @@ Pair pooled(const std::vector<Pair>& pairs, std::span<const int> missions) {
 }
 
 FigureComparison compare(const Figure& figure, const std::vector<Pair>& pairs) {
-  const int missions = static_cast<int>(pairs.size());
-  FigureComparison result;
-  result.figure = figure.name;
-  result.difference = core::bootstrap(missions, [&](std::span<const int> drawn) {
-    const Pair sum = pooled(pairs, drawn);
-    return figure.of(sum.ours) - figure.of(sum.theirs);
-  });
-  result.ratio = core::bootstrap(missions, [&](std::span<const int> drawn) {
-    const Pair sum = pooled(pairs, drawn);
-    return figure.of(sum.ours) / figure.of(sum.theirs);
-  });
-  std::vector<TableRow> all(2);
-  for (const Pair& pair : pairs) {
-    add(pair.ours, all[0]);
-    add(pair.theirs, all[1]);
-  }
-  result.ours = figure.of(all[0]);
-  result.theirs = figure.of(all[1]);
-  return result;
+  const auto of = [&](std::span<const int> missions) {
+    const Pair sum = pooled(pairs, missions);
+    return std::pair(figure.of(sum.ours), figure.of(sum.theirs));
+  };
+  return compare_figure(figure.name, static_cast<int>(pairs.size()), of);
 }
 
 Json interval_json(const core::Interval& interval) {
@@ -117,6 +105,24 @@ Json interval_json(const core::Interval& interval) {
 std::string FigureComparison::verdict() const {
   if (!difference.excludes(0)) return "-";
   return difference.estimate < 0 ? "less" : "more";
+}
+
+FigureComparison compare_figure(const std::string& figure, int missions,
+                                const PairedStatistic& of) {
+  FigureComparison result;
+  result.figure = figure;
+  result.difference = core::bootstrap(missions, [&](std::span<const int> drawn) {
+    const auto [ours, theirs] = of(drawn);
+    return ours - theirs;
+  });
+  result.ratio = core::bootstrap(missions, [&](std::span<const int> drawn) {
+    const auto [ours, theirs] = of(drawn);
+    return ours / theirs;
+  });
+  std::vector<int> all(static_cast<std::size_t>(missions));
+  std::iota(all.begin(), all.end(), 0);
+  std::tie(result.ours, result.theirs) = of(all);
+  return result;
 }
 
 std::vector<PolicyComparison> compare_policies(const std::vector<Json>& results) {

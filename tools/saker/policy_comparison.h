@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/bootstrap.h"
@@ -19,6 +22,13 @@ struct FigureComparison {
   /// "less" or "more" only where the interval of the difference excludes 0, else "-".
   [[nodiscard]] std::string verdict() const;
 };
+
+/// A figure of some missions, by their numbers: ours and theirs.
+using PairedStatistic = std::function<std::pair<double, double>(std::span<const int> missions)>;
+
+/// With 95 % intervals by paired bootstrap over the missions.
+[[nodiscard]] FigureComparison compare_figure(const std::string& figure, int missions,
+                                              const PairedStatistic& of);
 
 struct PolicyComparison {
   std::string scenario;  ///< or "all"

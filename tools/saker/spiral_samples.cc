@@ -95,6 +95,8 @@ SpiralSamples fly_spiral(const simulation::SpiralConfig& spiral,
   simulation::SpiralFlight flight(spiral, subject, seed);
   autonomy::Config as_in_flight = config;
   as_in_flight.rates.segmentation_hz = config.rates.flight_segmentation_hz;
+  // A model fitted to what a model had corrected would feed on itself.
+  as_in_flight.slam.measurement_noise = slam::NoiseSource::fixed;
   core::Timings timings;
   autonomy::Lockstep lockstep(as_in_flight, 1, timings);
   Listener listener(flight, config.objects, config.detection.window.range_m, recording);

@@ -49,4 +49,20 @@ Json target_figures(const objects::ObjectMap& mapped, const objects::ObjectMap& 
           {"errors", list}};
 }
 
+Json consistency_figures(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
+                         const objects::ClassTable& table) {
+  const auto compared = objects::compare(mapped, truth, table, {});
+  const auto judged = objects::consistency(mapped, truth, compared);
+  Json figures = Json::object();
+  for (const objects::ClassComparison& c : compared) {
+    if (c.found == 0) continue;
+    const auto mean = objects::mean_consistency(judged, table.find(c.name));
+    figures[c.name] = {{"size_objects", mean.size_objects},
+                       {"size_nees", number(mean.size)},
+                       {"place_objects", mean.place_objects},
+                       {"place_nees", number(mean.place)}};
+  }
+  return figures;
+}
+
 }  // namespace saker::tools

@@ -21,4 +21,11 @@ using Json = nlohmann::ordered_json;
                                   const std::vector<int>& targets,
                                   const objects::ClassTable& table);
 
+/// How honest the covariances of a whole map are, by class of cuboids or cylinders of which any
+/// object was found: {"vehicle": {"size_objects", "size_nees", "place_objects", "place_nees"}},
+/// objects counted where there is a covariance, and of places enough neighbours.
+[[nodiscard]] Json consistency_figures(const objects::ObjectMap& mapped,
+                                       const objects::ObjectMap& truth,
+                                       const objects::ClassTable& table);
+
 }  // namespace saker::tools

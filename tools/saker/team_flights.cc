@@ -37,15 +37,37 @@ simulation::MissionConfig site_of(const TeamMission& mission, std::size_t robot)
   return site;
 }
 
-/// Of `ids` those whose true place is in the lot.
-std::vector<int> in_lot(const Lot& lot, const std::vector<int>& ids,
-                        const objects::ObjectMap& truth) {
+/// Where a target was said to be, or truly is when nothing was said of it: whose task it is must
+/// not depend on the error of what was said.
+Eigen::Vector3d place_of(const TeamSite& site, const objects::MapObject& target) {
+  const auto said = std::ranges::find(site.said.objects, target.id, &objects::MapObject::id);
+  return objects::place(said != site.said.objects.end() ? said->model : target.model);
+}
+
+/// Ids of those that are in the lot.
+std::vector<int> in_lot(const Lot& lot, const TeamSite& site) {
   std::vector<int> inside;
-  for (const objects::MapObject& object : truth.objects) {
-    const bool target = std::ranges::find(ids, object.id) != ids.end();
-    if (target && lot.contains(objects::place(object.model))) inside.push_back(object.id);
+  for (const objects::MapObject& object : site.truth.objects) {
+    const bool target = std::ranges::find(site.targets, object.id) != site.targets.end();
+    if (target && lot.contains(place_of(site, object))) inside.push_back(object.id);
   }
   return inside;
+}
+
+/// As the mission file draws them, or by the work in them.
+std::vector<std::vector<double>> lots_of(const TeamMission& mission, const TeamSite& site) {
+  std::vector<std::vector<double>> lots;
+  std::vector<Eigen::Vector3d> targets, takeoffs;
+  for (const RobotConfig& robot : mission.config.robots) {
+    lots.push_back(robot.lot_m);
+    takeoffs.emplace_back(robot.x_m, robot.y_m, 0);
+  }
+  if (!mission.config.division.by_work) return lots;
+  for (const objects::MapObject& object : site.said.objects) {
+    const Eigen::Vector3d place = objects::place(object.model);
+    targets.emplace_back(place.x(), place.y(), 0);
+  }
+  return divided_lots(std::move(targets), takeoffs, mission.config.division);
 }
 
 exchange::StreamId history_of(const std::string& robot) {
@@ -56,6 +78,7 @@ exchange::StreamId history_of(const std::string& robot) {
 
 TeamSite build_team_site(const TeamMission& mission, std::uint64_t seed) {
   TeamSite site;
+  std::vector<std::vector<double>> lots;
   for (std::size_t i = 0; i < mission.config.robots.size(); ++i) {
     const RobotConfig& config = mission.config.robots[i];
     try {
@@ -68,13 +91,14 @@ TeamSite build_team_site(const TeamMission& mission, std::uint64_t seed) {
         site.said = world.prior;
         site.said.frame = "base";
         site.targets = world.targets;
+        lots = lots_of(mission, site);
       }
       const SE3 T_base_world = world.T_sim_base.inverse() * world.T_sim_world;
       PlacedRobot robot{
           .T_base_world = T_base_world,
           .surveyed = surveyed(T_base_world, mission.config.takeoff, stream(seed, kSurvey, i)),
-          .lot = Lot(config.lot_m)};
-      robot.targets = in_lot(robot.lot, site.targets, site.truth);
+          .lot = Lot(lots[i])};
+      robot.targets = in_lot(robot.lot, site);
       if (robot.targets.empty()) throw Error("lot_m: no target stands there");
       site.robots.push_back(std::move(robot));
     } catch (const Error& error) {
@@ -107,7 +131,8 @@ objects::ObjectMap TeamFlights::map() const {
 void TeamFlights::fly(std::size_t robot) {
   TeamFlight flight{.robot = mission_.config.robots[robot].name};
   exchange::MemoryStore own;
-  flight.before = contact(2 * robot, own);
+  flight.before.complete = mission_.config.at_once;
+  if (!mission_.config.at_once) flight.before = contact(2 * robot, own);
   const objects::ObjectMap prior = prior_of(robot, flight);
   spdlog::info("{}: {} targets, {} known well by others, {} not well enough", flight.robot,
                prior.objects.size(), flight.known, flight.weak);
@@ -135,7 +160,8 @@ ContactFigures TeamFlights::contact(std::size_t number, exchange::Store& robot) 
 objects::ObjectMap TeamFlights::prior_of(std::size_t robot, TeamFlight& flight) const {
   const PlacedRobot& placed = site_.robots[robot];
   objects::ObjectMap mapped;
-  if (flight.before.complete && !flights_.empty()) mapped = map();
+  const bool heard = flight.before.complete && !mission_.config.at_once;
+  if (heard && !flights_.empty()) mapped = map();
   const objects::ObjectMap prior =
       next_prior(site_.said, mapped, placed.lot, mission_.config.known_gate_m, table_);
   const active::TargetList targets(mission_.robots[robot].active.targets, table_, prior);

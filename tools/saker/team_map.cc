@@ -69,17 +69,22 @@ objects::ObjectMap next_prior(const objects::ObjectMap& said, const objects::Obj
   const std::map<int, int> mapped_as = mapped_of(said, mapped, gate_m, table);
   objects::ObjectMap prior;
   prior.frame = said.frame;
-  std::map<int, int> known;  // mapped id → its id in the prior
-  for (const auto& [said_id, mapped_id] : mapped_as) known[mapped_id] = said_id;
+  std::map<int, const objects::MapObject*> known;  // mapped id → what was said of it
   for (const objects::MapObject& object : said.objects) {
-    const bool in_lot = lot.contains(objects::place(object.model));
-    if (in_lot && !mapped_as.contains(object.id)) prior.objects.push_back(object);
+    const auto as = mapped_as.find(object.id);
+    if (as != mapped_as.end()) {
+      known[as->second] = &object;
+    } else if (lot.contains(objects::place(object.model))) {
+      prior.objects.push_back(object);
+    }
   }
   int unused = next_id(said);
   for (objects::MapObject object : mapped.objects) {
-    if (!is_target(object, table) || !lot.contains(objects::place(object.model))) continue;
     const auto as = known.find(object.id);
-    object.id = as != known.end() ? as->second : unused++;
+    const bool was_said = as != known.end();
+    const objects::Model& where = was_said ? as->second->model : object.model;
+    if (!is_target(object, table) || !lot.contains(objects::place(where))) continue;
+    object.id = was_said ? as->second->id : unused++;
     prior.objects.push_back(std::move(object));
   }
   std::ranges::sort(prior.objects, {}, &objects::MapObject::id);

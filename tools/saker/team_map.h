@@ -33,7 +33,7 @@ class Lot {
                                        core::Rng rng);
 
 /// What the next robot is told of its lot, in base: what was said beforehand, and in its place what
-/// robots mapped, with its covariance. Ids of what was said beforehand stay.
+/// robots mapped, with its covariance. Ids of what was said beforehand stay, and so does its lot.
 /// \param mapped  by all robots so far, with covariances
 [[nodiscard]] objects::ObjectMap next_prior(const objects::ObjectMap& said,
                                             const objects::ObjectMap& mapped, const Lot& lot,

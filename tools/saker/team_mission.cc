@@ -24,8 +24,9 @@ void check_name(const RobotConfig& robot, std::set<std::string>& names) {
   }
 }
 
-void check_lot(const RobotConfig& robot) {
+void check_lot(const RobotConfig& robot, const DivisionConfig& division) {
   if (robot.lot_m.empty()) return;
+  if (division.by_work) throw Error("lot_m: expected none, division.by_work draws the lots");
   try {
     const motion::Geofence lot({.polygon_m = robot.lot_m});
   } catch (const Error&) {
@@ -72,7 +73,7 @@ TeamMission read_team_mission(const std::filesystem::path& file, const autonomy:
     const RobotConfig& robot = mission.config.robots[i];
     try {
       check_name(robot, names);
-      check_lot(robot);
+      check_lot(robot, mission.config.division);
       mission.robots.push_back(told(robot, config));
     } catch (const Error& error) {
       throw Error(fmt::format("{}: robots[{}].{}", file.string(), i, error.what()));

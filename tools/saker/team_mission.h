@@ -6,6 +6,7 @@
 
 #include "autonomy/config.h"
 #include "lidar/mount.h"
+#include "saker/team_division.h"
 #include "saker/team_link.h"
 #include "simulation/mission_config.h"
 
@@ -62,7 +63,9 @@ struct TeamMissionConfig {
   std::string scenario;
   std::vector<RobotConfig> robots;
   TakeoffSurveyConfig takeoff;
+  DivisionConfig division;
   LinkConfig link;
+  bool at_once = false;
   double known_gate_m = 3;
 
   template <class Visitor>
@@ -70,7 +73,10 @@ struct TeamMissionConfig {
     v.field("scenario", scenario, "", "the site, kind mission; from this file's folder");
     v.list("robots", robots, "in the order of their flights");
     v.group("takeoff", takeoff, "how well take-off poses are known");
+    v.group("division", division, "whose lot is what");
     v.group("link", link, "between a robot and its base, at the base");
+    v.field("at_once", at_once, "",
+            "as if they flew at once: nobody hears before its flight what others mapped");
     v.field("known_gate_m", known_gate_m, {0.1, 50}, "m",
             "between what was said of an object beforehand and what robots mapped: three "
             "deviations of a prior of 1 m");

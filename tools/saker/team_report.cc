@@ -57,9 +57,9 @@ double merged_error(const TeamFlights& flights, std::size_t robot, const TeamSit
 
 Json row_of(const TeamFlight& flight) {
   Json row = {{"robot", flight.robot}};
-  for (const char* key :
-       {"policy", "succeeded", "phase", "outcome", "targets", "found", "bias_m", "sd_m", "mae_m",
-        "collisions", "min_clearance_m", "flight_time_s", "path_m", "trajectory_error_m"}) {
+  for (const char* key : {"policy", "succeeded", "phase", "outcome", "targets", "found", "bias_m",
+                          "sd_m", "mae_m", "errors", "collisions", "min_clearance_m",
+                          "flight_time_s", "path_m", "trajectory_error_m"}) {
     row[key] = flight.results.at(key);
   }
   row["objects_per_min"] = number(per_minute(row["found"], busy_s(flight)));

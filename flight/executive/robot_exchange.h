@@ -1,0 +1,72 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/mailbox.h"
+#include "exchange/exchange.h"
+#include "exchange/journal_store.h"
+#include "exchange/packed_history.h"
+#include "process/configuration.h"
+#include "slam/history.h"
+
+namespace saker::flight {
+
+/// The robot's end of the exchange with the base station, before, in and after a flight, as long as
+/// it is in reach. `step` has a loop of its own, so that nothing that flies waits for the disk; the
+/// other threads only put into its queues.
+class RobotExchange {
+ public:
+  /// Subscribes to `bus`, which has to outlive this. Throws Error where the team's key, the folder
+  /// or what is in it cannot be used.
+  RobotExchange(const ProcessConfig& config, Bus& bus);
+
+  /// What is new in this flight's history. On the mapping thread.
+  void add(const slam::History& history);
+  /// On its own loop, 50 Hz.
+  void step();
+
+  /// This flight's number, counted from 1: none before it in the folder has it.
+  [[nodiscard]] std::uint32_t flight() const { return flight_.version; }
+
+  // Any thread.
+
+  /// All that was added is on the disk, and nobody in reach lacks any of it.
+  [[nodiscard]] bool settled() const { return state_ != State::busy; }
+  /// The base has this whole flight.
+  [[nodiscard]] bool handed_over() const { return state_ == State::handed_over; }
+  /// Datagrams that came faster than they were looked at.
+  [[nodiscard]] long dropped() const { return heard_.dropped(); }
+  /// For `_HEALTH`.
+  [[nodiscard]] std::vector<std::pair<std::string, long>> figures() const;
+
+ private:
+  using Steady = std::chrono::steady_clock;
+  enum class State { idle, busy, handed_over };
+
+  bool hear(const exchange_t& message);
+  void write_down();
+  [[nodiscard]] State looked_at(Time now) const;
+  void say_figures();
+
+  Bus& bus_;
+  const std::string channel_;
+  exchange::JournalStore store_;
+  const exchange::StreamId flight_;
+  exchange::Exchange exchange_;
+  exchange::HistoryPacker packer_;
+  std::size_t queued_ = 0;  // entries, by the mapping thread
+
+  BoundedQueue<slam::HistoryEntry> entries_;
+  BoundedQueue<std::string> heard_;
+  Mailbox<std::vector<std::pair<std::string, long>>> figures_;
+  std::atomic<State> state_ = State::idle;
+  long unkept_ = 0;  // entries of this flight that are told to nobody
+  Steady::time_point said_;
+};
+
+}  // namespace saker::flight

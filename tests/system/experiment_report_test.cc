@@ -1,0 +1,83 @@
+#include "saker/experiment_report.h"
+
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "objects/map_io.h"
+#include "saker/target_figures.h"
+#include "saker/viewpoint_log.h"
+
+namespace saker::tools {
+namespace {
+
+constexpr objects::ClassId kTrunk = 2;
+constexpr double kRadiusSd = 0.02;  // m
+const objects::ClassTable kTable;
+
+objects::ObjectMap trunks(double radius) {
+  objects::ObjectMap map;
+  map.frame = "world";
+  for (int i = 0; i < 4; ++i) {
+    objects::MapObject object;
+    object.id = i;
+    object.class_id = kTrunk;
+    object.class_probability = {0, 0, 1, 0, 0};
+    object.model =
+        objects::Cylinder{{5.0 * i, 1.0 * i * i, 0}, Eigen::Vector3d::UnitZ(), radius, 3};
+    object.covariance = kRadiusSd * kRadiusSd * Matrix6d::Identity();
+    map.objects.push_back(object);
+  }
+  return map;
+}
+
+/// What a run leaves; its trunks are too thick by 3 sd.
+std::filesystem::path flown() {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "flown";
+  std::filesystem::create_directories(folder);
+  objects::write_map(folder / "map.json", trunks(0.15 + 3 * kRadiusSd), kTable);
+  objects::write_map(folder / "truth.json", trunks(0.15), kTable);
+  core::write_file(folder / "viewpoints.csv", ViewpointLog().csv());
+  return folder;
+}
+
+Json results() {
+  Json run = {{"scenario", "lot"}, {"policy", "visit"}, {"seed", 1}, {"succeeded", true}};
+  run.update(target_figures({}, {}, {}, kTable));
+  run.update(Json{{"target_list", Json::array()},
+                  {"collisions", 0},
+                  {"min_clearance_m", 1.0},
+                  {"trajectory_error_m", 0.1},
+                  {"flight_time_s", 10.0},
+                  {"path_m", 5.0}});
+  return run;
+}
+
+TEST(ConsistencyFigures, AreOfEveryClassThatWasFound) {
+  const Json figures = consistency_figures(trunks(0.15 + 3 * kRadiusSd), trunks(0.15), kTable);
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures["trunk"]["size_objects"], 4);
+  EXPECT_NEAR(figures["trunk"]["size_nees"].get<double>(), 9, 1e-9);
+  EXPECT_EQ(figures["trunk"]["place_objects"], 4);
+  EXPECT_NEAR(figures["trunk"]["place_nees"].get<double>(), 0, 1e-9);
+}
+
+TEST(ExperimentReport, TakesNeesFromTheMapsOfRunsThatWereFlownBeforeItWasAResult) {
+  const std::filesystem::path folder = flown();
+  const std::string text = write_report({{folder, results()}}, kTable, folder);
+  EXPECT_NE(text.find("trunk         9.00       4"), std::string::npos) << text;
+  EXPECT_EQ(core::read_file(folder / "table.txt"), text);
+}
+
+TEST(ExperimentReport, TakesNeesFromTheResultsWhereItIs) {
+  const std::filesystem::path folder = flown();
+  Json run = results();
+  run["consistency"] = {
+      {"pole",
+       {{"size_objects", 2}, {"size_nees", 1.5}, {"place_objects", 0}, {"place_nees", nullptr}}}};
+  const std::string text = write_report({{folder, run}}, kTable, folder);
+  EXPECT_NE(text.find("pole          1.50       2"), std::string::npos) << text;
+  EXPECT_EQ(text.find("trunk"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace saker::tools
