@@ -1,6 +1,7 @@
 """A flight by real processes, over LCM and UDP, that something goes wrong with. Runs in a namespace of its own."""
 
 import csv
+import json
 import os
 import pathlib
 import signal
@@ -37,18 +38,24 @@ class Row:
 class Flight:
     """Simulator, collision checker and executive; `end` them, whatever happens."""
 
-    def __init__(self, folder, event="", settings=()):
+    def __init__(self, folder, event="", settings=(), prior=lambda objects: objects):
         self.folder, self.processes = pathlib.Path(folder), {}
         scenario = self.folder / "scenario.yaml"
         scenario.write_text(SCENARIO.read_text() + (f"  events: [{event}]\n" if event else ""))
         self.site, self.out = self.folder / "simulator", self.folder / "executive"
         self.start("saker-sim", scenario, "-o", self.site)
         self.wait(lambda: (self.site / "metadata.json").exists(), 20, "a site")
+        self.choose_targets(prior)
         config = ("--config", self.site / "site.yaml")
         self.start("saker-collision-checker", *config)
         own = [word for setting in settings for word in ("--set", setting)]
         self.start("saker-flight", *config, *TWO_SIDES, *own, "--prior", self.site / "prior.json", "--meta",
                    self.site / "metadata.json", "-o", self.out)
+
+    def choose_targets(self, prior):
+        file = self.site / "prior.json"
+        said = json.loads(file.read_text())
+        file.write_text(json.dumps(said | {"objects": prior(said["objects"])}))
 
     def start(self, name, *arguments):
         with open(self.folder / f"{name}.log", "w") as log:

@@ -3,6 +3,7 @@
 tests/autonomy/fault_test.cc does the same in lockstep, where details can be looked at.
 """
 
+import math
 import os
 import re
 import tempfile
@@ -14,16 +15,21 @@ SETTLED = 2  # s
 WATCHED = 4  # s of the flight after the fault: it must stay so
 
 
-def event(kind):
-    return f"{{kind: {kind}, at_s: 0, from_speed_mps: {FAST}}}"
+def event(kind, more=""):
+    return f"{{kind: {kind}, at_s: 0, from_speed_mps: {FAST}{more}}}"
+
+
+def farthest(objects):
+    """Of the prior map, from the take-off point."""
+    return [max(objects, key=lambda o: math.hypot(*o["position"][:2]))]
 
 
 @unittest.skipUnless(os.environ.get("SAKER_NAMESPACE") == "yes", "runs by in_namespace.sh")
 class Fault(unittest.TestCase):
-    def fly(self, fault=""):
+    def fly(self, fault="", **settings):
         holder = tempfile.TemporaryDirectory(prefix="saker_fault_")
         self.addCleanup(holder.cleanup)
-        flight = Flight(holder.name, fault)
+        flight = Flight(holder.name, fault, **settings)
         self.addCleanup(flight.end)
         return flight
 
@@ -80,7 +86,8 @@ class Fault(unittest.TestCase):
         self.says(flight, "saker-sim", "odometry rejected")
 
     def test_obstacle_in_the_way(self):
-        flight = self.fly(event("obstacle"))
+        """So near that it stops at once, on a leg that is longer, whichever target the tour begins with."""
+        flight = self.fly(event("obstacle", ", ahead_m: 3.4"), prior=farthest)
         self.settles(flight, flight.fly_into_event(), stays=False)  # it finds a way around
         self.says(flight, "saker-flight", "stopped: blocked at")
 
