@@ -104,11 +104,6 @@ std::string manifest(const ExperimentOptions& options, const CommonOptions& comm
   return all.dump(1) + "\n";
 }
 
-bool goes_on(const CommonOptions& common, const std::string& wanted) {
-  const fs::path file = fs::path(common.out) / "experiment.json";
-  return !common.force && fs::exists(file) && core::read_file(file) == wanted;
-}
-
 /// One of several: on one thread, with a log of its own.
 Json run_or_read(Job job, const fs::path& out) {
   const fs::path folder = out / job.folder;
@@ -173,7 +168,7 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
   check_sites(jobs, common);
   const std::string wanted = manifest(options, common);
   CommonOptions outer = common;
-  outer.force = common.force || goes_on(common, wanted);
+  outer.force = common.force || goes_on(common, "experiment.json", wanted);
   const OutputFolder out(outer);
   if (common.force) {
     for (const Job& job : jobs) fs::remove(out.path() / job.folder / kResults);

@@ -31,11 +31,6 @@ std::string manifest(const std::string& file, const TeamMission& mission, int ru
   return all.dump(1) + "\n";
 }
 
-bool goes_on(const CommonOptions& common, const std::string& wanted) {
-  const fs::path file = fs::path(common.out) / "mission.json";
-  return !common.force && fs::exists(file) && core::read_file(file) == wanted;
-}
-
 /// Whether the robot's part went as it should; says what did not.
 bool good(const Json& robot) {
   const bool merged = robot.at("merge").at("status") == "merged";
@@ -114,7 +109,7 @@ int fly_team(const std::string& file, int runs, const CommonOptions& common) {
   const std::vector<Run> all = runs_of(mission, runs, common);
   const std::string wanted = manifest(file, mission, runs, common);
   CommonOptions outer = common;
-  outer.force = common.force || goes_on(common, wanted);
+  outer.force = common.force || goes_on(common, "mission.json", wanted);
   const OutputFolder out(outer);
   if (common.force) forget(mission, all);
   core::write_file(out / "mission.json", wanted);

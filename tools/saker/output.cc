@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/files.h"
 
 namespace saker::tools {
 namespace {
@@ -70,6 +71,11 @@ OutputFolder::~OutputFolder() {
 fs::path OutputFolder::folder(const std::string& name) const {
   make_folder(path_ / name);
   return path_ / name;
+}
+
+bool goes_on(const CommonOptions& common, const std::string& file, const std::string& manifest) {
+  const fs::path before = fs::path(common.out) / file;
+  return !common.force && fs::exists(before) && core::read_file(before) == manifest;
 }
 
 std::shared_ptr<spdlog::logger> log_of_run(const fs::path& folder) {

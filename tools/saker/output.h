@@ -33,6 +33,10 @@ class OutputFolder {
   std::filesystem::path path_;
 };
 
+/// Whether OUT holds an interrupted run of the same that may go on: `manifest` in OUT/`file`.
+[[nodiscard]] bool goes_on(const CommonOptions& common, const std::string& file,
+                           const std::string& manifest);
+
 /// The log of one of several runs: into folder/log.txt only, so that the lines of runs that go side
 /// by side do not mix. Makes the folder; throws Error where it cannot.
 [[nodiscard]] std::shared_ptr<spdlog::logger> log_of_run(const std::filesystem::path& folder);
