@@ -36,21 +36,23 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       imu_port_(input.sensor.imu_port),
       ingestion_(config.autonomy.odometry, config.autonomy.standstill, input.sensor,
                  lidar::mount_pose(config.autonomy.mount)),
-      segmentation_(config.autonomy.segmentation, config.autonomy.objects),
+      segmentation_(config.autonomy.segmentation, config.autonomy.objects,
+                    autonomy::up_as_mounted(config.autonomy)),
       window_(config.autonomy.detection.window_s),
       uncertainty_(autonomy::uncertainty_for(config.autonomy)),
       mapping_(config.autonomy.detection, config.autonomy.slam, config.autonomy.objects,
                uncertainty_),
       body_pose_(config.autonomy.body_pose, config.autonomy.odometry.motion.inertial,
                  lidar::mount_pose(config.autonomy.mount)),
-      planning_(config.autonomy.planning, config.autonomy.active, config.autonomy.motion,
-                config.autonomy.objects, input.prior, config.autonomy.mission.height_m,
-                uncertainty_),
+      planning_(config.autonomy.planning, autonomy::active_as_mounted(config.autonomy),
+                config.autonomy.motion, config.autonomy.objects, input.prior,
+                config.autonomy.mission.height_m, uncertainty_),
       has_targets_(!planning_.policy().idle()),
       guidance_(config.autonomy.guidance),
-      supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()) {
+      supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()),
+      exchange_(input.exchange),
+      figures_(input.figures) {
   board_.orders.put(Orders{});
-  if (!config.exchange.folder.empty()) exchange_ = std::make_unique<RobotExchange>(config, bus);
   subscribe();
   make_loops();
 }
@@ -222,10 +224,16 @@ void Executive::save(const std::filesystem::path& out) {
   core::write_file(out / "viewpoints.txt", viewpoints);
   core::write_file(out / "timings.csv", timings_.csv());
   save_loops(out / "loops.json");
-  slam::History history = slam.history();
+  core::write_file(out / "history.bin",
+                   exchange::packed(history(), config_.autonomy.objects.size(),
+                                    autonomy::takeoff_pose(config_.team.takeoff)));
+}
+
+slam::History Executive::history() const {
+  slam::History history = mapping_.slam().history();
   history.robot = bus_.robot();
   history.flight = exchange_ != nullptr ? exchange_->flight() : 1;
-  core::write_file(out / "history.bin", exchange::packed(history, config_.autonomy.objects.size()));
+  return history;
 }
 
 }  // namespace saker::flight

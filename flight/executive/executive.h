@@ -30,6 +30,8 @@ namespace saker::flight {
 struct ExecutiveInput {
   lidar::SensorInfo sensor;
   objects::ObjectMap prior;
+  RobotExchange* exchange = nullptr;  ///< has to outlive the executive; null: it tells nobody
+  std::vector<std::pair<std::string, long>> figures{};  ///< of the set-up, for `_HEALTH`
 };
 
 class Executive {
@@ -47,6 +49,8 @@ class Executive {
   /// Map, trajectories and timings, as `saker replay` leaves them, and history.bin, what this
   /// flight has to tell. After `run`.
   void save(const std::filesystem::path& out);
+  /// What this flight has to tell. After `run`.
+  [[nodiscard]] slam::History history() const;
 
  private:
   void make_loops();
@@ -123,7 +127,8 @@ class Executive {
   int anchors_ = 0;
   std::chrono::steady_clock::time_point announced_;
 
-  std::unique_ptr<RobotExchange> exchange_;  // null: it tells nobody
+  RobotExchange* exchange_;  // null: it tells nobody
+  const std::vector<std::pair<std::string, long>> figures_;
 
   std::string hanging_;  // the loop that was said to hang
   Time took_off_ = 0;

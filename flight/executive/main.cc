@@ -2,6 +2,7 @@
 
 #include "bus/machine.h"
 #include "core/config_io.h"
+#include "executive/briefing.h"
 #include "executive/executive.h"
 #include "lidar/metadata.h"
 #include "objects/map_io.h"
@@ -28,13 +29,23 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-flight");
   presence.claim();
+  const std::unique_ptr<RobotExchange> exchange = make_exchange(config, bus);
+  std::optional<Briefing> briefing;
+  if (exchange != nullptr) {
+    briefing.emplace(config, *exchange, bus, presence);
+    input.prior = briefing->brief(input.prior);
+    input.exchange = exchange.get();
+    input.figures = briefing->figures();
+  }
   Executive executive(config, input, bus, presence);
   const tools::OutputFolder out(flight.output);
   spdlog::info("flies as {}", options.robot);
+  if (briefing) spdlog::info(briefing->text());
   Service service;
   service.ready();
   const bool succeeded = executive.run(service, mark);
   executive.save(out.path());
+  if (briefing) briefing->debrief(executive.history(), out.path());
   return succeeded ? 0 : 1;
 }
 

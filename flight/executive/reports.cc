@@ -105,6 +105,7 @@ void Executive::say_health() {
     for (const auto& [name, value] : exchange_->figures())
       message.counters.push_back(counter(name, value));
   }
+  for (const auto& [name, value] : figures_) message.counters.push_back(counter(name, value));
   message.num_counters = static_cast<std::int32_t>(message.counters.size());
   bus_.publish(message);
 }

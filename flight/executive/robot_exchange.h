@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,10 +27,22 @@ class RobotExchange {
   /// or what is in it cannot be used.
   RobotExchange(const ProcessConfig& config, Bus& bus);
 
+  /// A whole file that the team is to have: a new version, unless it has the newest one already.
+  /// Before `step` has a thread of its own. False where the disk does not take it.
+  [[nodiscard]] bool publish(exchange::StreamKind kind, std::string_view bytes);
   /// What is new in this flight's history. On the mapping thread.
   void add(const slam::History& history);
   /// On its own loop, 50 Hz.
   void step();
+
+  // Before `step` has a thread of its own, or when it has ended.
+
+  /// A base answers.
+  [[nodiscard]] bool in_reach() const { return in_reach_; }
+  /// A base in reach had nothing more to tell for a second.
+  [[nodiscard]] bool heard_all() const;
+  /// All flights that are kept here, but this one.
+  [[nodiscard]] std::vector<exchange::UnpackedHistory> told_flights() const;
 
   /// This flight's number, counted from 1: none before it in the folder has it.
   [[nodiscard]] std::uint32_t flight() const { return flight_.version; }
@@ -50,7 +64,7 @@ class RobotExchange {
 
   bool hear(const exchange_t& message);
   void write_down();
-  [[nodiscard]] State looked_at(Time now) const;
+  [[nodiscard]] State looked_at(Time now);
   void say_figures();
 
   Bus& bus_;
@@ -67,6 +81,13 @@ class RobotExchange {
   std::atomic<State> state_ = State::idle;
   long unkept_ = 0;  // entries of this flight that are told to nobody
   Steady::time_point said_;
+  bool in_reach_ = false;
+  std::size_t kept_bytes_ = 0;      // of all streams, at the last step
+  Steady::time_point lacked_ = {};  // when a base in reach was last known to have more
 };
+
+/// The robot's end of the exchange; none, in one line of the log, where there is no folder for it
+/// or no key. Throws Error as the constructor does.
+[[nodiscard]] std::unique_ptr<RobotExchange> make_exchange(const ProcessConfig& config, Bus& bus);
 
 }  // namespace saker::flight

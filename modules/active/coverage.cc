@@ -22,8 +22,9 @@ std::size_t nearest_of(const std::vector<Vector2d>& stops, const Vector2d& place
 
 }  // namespace
 
-Coverage::Coverage(const SweepConfig& config, double farthest_m, const motion::Geofence& fence)
-    : config_(config), farthest_m_(farthest_m) {
+Coverage::Coverage(const SweepConfig& config, const FieldOfViewConfig& view,
+                   const motion::Geofence& fence)
+    : config_(config), view_(view) {
   const std::vector<Vector2d> all = middles(fence);
   stops_ = stops_on(sweep_lines(fence.corners(), config.spacing_m), config.step_m, config.inset_m);
   if (!stops_.empty() && stops_.front().norm() > stops_.back().norm()) {
@@ -68,11 +69,18 @@ void Coverage::assign(const std::vector<Vector2d>& middles) {
   }
 }
 
-void Coverage::look(const Eigen::Vector3d& eye, double seconds, const Surroundings& surroundings,
-                    const objects::ObjectMap* map) {
+bool Coverage::in_view(const Eigen::Vector3d& eye, double yaw, const Vector2d& middle,
+                       const objects::ObjectMap* map) const {
+  if ((middle - eye.head<2>()).norm() > view_.farthest_m) return false;
+  if (sees_all_around(view_)) return true;
+  return between_beams(eye, yaw, {middle.x(), middle.y(), ground_height(map, middle)}, view_);
+}
+
+void Coverage::look(const Eigen::Vector3d& eye, double yaw, double seconds,
+                    const Surroundings& surroundings, const objects::ObjectMap* map) {
   for (Square& square : squares_) {
     if (square.seen_s >= config_.seen_s) continue;
-    if ((square.middle - eye.head<2>()).norm() > farthest_m_) continue;
+    if (!in_view(eye, yaw, square.middle, map)) continue;
     if (standing_at(square.middle, surroundings, map) == Standing::unknown) continue;
     square.seen_s += seconds;
     if (square.seen_s >= config_.seen_s) ++seen_of_[square.stop];

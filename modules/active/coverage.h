@@ -17,14 +17,15 @@ namespace saker::active {
 /// many and none opens again: a sweep ends.
 class Coverage {
  public:
-  /// \param farthest_m in x-y, from which a square is seen.
+  /// \param view whose range, in x-y, is that from which a square is seen.
   /// The sweep begins at that end of it that is nearer to the place of take-off. Throws Error where
   /// the geofence has too many squares.
-  Coverage(const SweepConfig& config, double farthest_m, const motion::Geofence& fence);
+  Coverage(const SweepConfig& config, const FieldOfViewConfig& view, const motion::Geofence& fence);
 
-  /// Looks around for `seconds`: squares in range of which it is known what stands there are seen.
-  void look(const Eigen::Vector3d& eye, double seconds, const Surroundings& surroundings,
-            const objects::ObjectMap* map);
+  /// Looks around for `seconds`: squares in range of which it is known what stands there are seen;
+  /// by a lidar that is tilted those between its beams, for a level one has them there on the way.
+  void look(const Eigen::Vector3d& eye, double yaw, double seconds,
+            const Surroundings& surroundings, const objects::ObjectMap* map);
 
   /// The stop to fly to: the first that is due, from the last one on and around; none: covered.
   [[nodiscard]] std::optional<std::size_t> next();
@@ -44,9 +45,11 @@ class Coverage {
 
   [[nodiscard]] std::vector<Eigen::Vector2d> middles(const motion::Geofence& fence) const;
   void assign(const std::vector<Eigen::Vector2d>& middles);
+  [[nodiscard]] bool in_view(const Eigen::Vector3d& eye, double yaw, const Eigen::Vector2d& middle,
+                             const objects::ObjectMap* map) const;
 
   SweepConfig config_;
-  double farthest_m_;
+  FieldOfViewConfig view_;
   std::vector<Eigen::Vector2d> stops_;
   std::vector<Square> squares_;
   std::vector<int> squares_of_, seen_of_;  ///< numbers, one a stop

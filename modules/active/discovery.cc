@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "active/column.h"
+#include "core/se3.h"
 
 namespace saker::active {
 namespace {
@@ -34,14 +35,14 @@ Discovery::Discovery(const ActiveConfig& config, const objects::ClassTable& tabl
       fence_(fence),
       policy_(std::move(policy)) {
   const SweepConfig& sweep = config_.discovery.sweep;
-  if (swept(sweep, *policy_)) coverage_.emplace(sweep, config_.view.farthest_m, fence_);
+  if (swept(sweep, *policy_)) coverage_.emplace(sweep, config_.view, fence_);
 }
 
 ActivePlan Discovery::plan(const ActiveInput& input, const core::Budget& budget) {
   if (!accept(input)) return {};
   if (map_) find_newcomers();
   dismiss_absent();
-  if (coverage_) coverage_->look(body_, elapsed_s_, surroundings_, map_.get());
+  if (coverage_) coverage_->look(body_, yaw_, elapsed_s_, surroundings_, map_.get());
   ActivePlan plan = policy_->plan(input, budget);
   if (plan.status == ActiveStatus::finished) {
     sweep(plan);
@@ -61,6 +62,7 @@ bool Discovery::accept(const ActiveInput& input) {
   const Eigen::Vector3d body = input.T_world_body.translation();
   stands_ = (body - body_).norm() < kStanding * elapsed_s_;
   body_ = body;
+  yaw_ = core::yaw(input.T_world_body.linear());
   map_ = input.map;
   grid_ = input.grid;
   surroundings_ = {grid_.get(), input.T_world_odom.inverse()};

@@ -69,6 +69,7 @@ class Discovery : public Policy {
   std::optional<Time> last_stamp_;
   double elapsed_s_ = 0;                                   ///< since the last decision
   Eigen::Vector3d body_ = Eigen::Vector3d::Constant(NAN);  ///< world, m
+  double yaw_ = NAN;                                       ///< rad, world
   bool stands_ = false;                                    ///< since the last decision
   std::shared_ptr<const objects::ObjectMap> map_;
   std::shared_ptr<const occupancy::OccupancyGrid> grid_;

@@ -133,7 +133,7 @@ PamsPolicy::Choice PamsPolicy::choice_among(int index, const std::vector<int>& s
   }
   const auto weigh = [&](Candidate& candidate) {
     if (candidate.refusal != Refusal::none) return;
-    std::vector<Sight> told = sights(candidate.viewpoint.position, choice);
+    std::vector<Sight> told = sights(candidate.viewpoint, choice);
     if (told.empty() || told.front().object != 0) {
       candidate.refusal = Refusal::seen;
       return;
@@ -173,12 +173,13 @@ std::vector<int> PamsPolicy::seen_together(int index) const {
   return together;
 }
 
-/// What is seen from `eye` and was not yet; of the current target, which is in view, first.
-std::vector<Sight> PamsPolicy::sights(const Eigen::Vector3d& eye, const Choice& choice) const {
+/// What is seen from there and was not yet; of the current target, which is in view, first.
+std::vector<Sight> PamsPolicy::sights(const Viewpoint& from, const Choice& choice) const {
+  const Eigen::Vector3d& eye = from.position;
   std::vector<Sight> told;
   for (int object = 0; object < static_cast<int>(choice.together.size()); ++object) {
     const Target& target = targets_[choice.together[object]];
-    if (object > 0 && !sees(eye, target, config_.view.margin_deg)) continue;
+    if (object > 0 && !sees(eye, from.yaw, target, config_.view.margin_deg)) continue;
     const uncertainty::View view = view_from(eye, target, model_);
     const uncertainty::Prediction prediction = model_.predict(target.class_id, view);
     if (choice.known[object].counted(prediction.cell)) continue;

@@ -58,7 +58,7 @@ class PamsPolicy : public VisitPolicy {
   [[nodiscard]] bool flies_to(int index) const;
   [[nodiscard]] Choice choice_among(int index, const std::vector<int>& samples);
   [[nodiscard]] std::vector<int> seen_together(int index) const;
-  [[nodiscard]] std::vector<Sight> sights(const Eigen::Vector3d& eye, const Choice& choice) const;
+  [[nodiscard]] std::vector<Sight> sights(const Viewpoint& from, const Choice& choice) const;
   void add_ways(Choice& choice) const;
   [[nodiscard]] std::optional<Path> best_path(const Choice& choice) const;
   void expect(const Choice& choice, const Path& path);

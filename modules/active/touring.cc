@@ -60,14 +60,14 @@ void TouringPolicy::follow_list() {
 void TouringPolicy::observe() {
   for (int index = 0; index < targets_.size(); ++index) {
     const Target& target = targets_[index];
-    if (target.status == TargetStatus::pending && sees(body_, target, 0)) look(index);
+    if (target.status == TargetStatus::pending && sees(body_, yaw_, target, 0)) look(index);
   }
 }
 
-bool TouringPolicy::sees(const Eigen::Vector3d& eye, const Target& target,
+bool TouringPolicy::sees(const Eigen::Vector3d& eye, double yaw, const Target& target,
                          double margin_deg) const {
   const ViewpointConfig& config = config_.viewpoints;
-  return in_field_of_view(eye, target.extent, config_.view, margin_deg) &&
+  return in_field_of_view(eye, yaw, target.extent, config_.view, margin_deg) &&
          visible_share(eye, target.extent, surroundings_, config.own_margin_m) >=
              config.least_visible;
 }

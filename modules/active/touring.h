@@ -50,7 +50,7 @@ class TouringPolicy : public TargetPolicy {
   /// From where the target was seen so far; empty: from nowhere.
   [[nodiscard]] virtual std::string seen_from(int index) const = 0;
 
-  [[nodiscard]] bool sees(const Eigen::Vector3d& eye, const Target& target,
+  [[nodiscard]] bool sees(const Eigen::Vector3d& eye, double yaw, const Target& target,
                           double margin_deg) const;
   void saw_something_new(int index);
   [[nodiscard]] bool fly_to(int index, const Viewpoint& viewpoint);

@@ -9,7 +9,6 @@ namespace {
 using objects::Cuboid;
 using std::numbers::pi;
 
-constexpr double kRadians = pi / 180;
 constexpr double kRingSearch = 0.25;  // m, between distances that are tried for the first ring
 constexpr double kRayHeight = 0.6;    // of the target: clear of the ground's cells
 constexpr double kRayEdge = 0.9;      // of half the size: on the target, not beside it
@@ -43,10 +42,12 @@ bool hidden(const Eigen::Vector3d& eye, const Eigen::Vector3d& point_in_target,
   return false;
 }
 
-Viewpoint viewpoint_at(const Cuboid& target, double bearing, double distance, double height) {
+Viewpoint viewpoint_at(const Cuboid& target, double bearing, double distance, double height,
+                       const FieldOfViewConfig& view) {
   Viewpoint viewpoint;
   viewpoint.bearing = bearing;
-  viewpoint.yaw = std::remainder(bearing + pi, 2 * pi);
+  const double elevation = std::atan2(0.5 * target.size.z() - height, distance);
+  viewpoint.yaw = std::remainder(bearing + pi - looks_to(elevation, view), 2 * pi);
   viewpoint.position = target.pose.translation() + Eigen::Vector3d(distance * std::cos(bearing),
                                                                    distance * std::sin(bearing),
                                                                    height - 0.5 * target.size.z());
@@ -57,31 +58,15 @@ Viewpoint viewpoint_at(const Cuboid& target, double bearing, double distance, do
 double first_ring(const Cuboid& target, double bearing, double height,
                   const FieldOfViewConfig& view) {
   for (double distance = kRingSearch; distance < view.farthest_m; distance += kRingSearch) {
-    const Viewpoint viewpoint = viewpoint_at(target, bearing, distance, height);
-    if (in_field_of_view(viewpoint.position, target, view, view.margin_deg)) return distance;
+    const Viewpoint viewpoint = viewpoint_at(target, bearing, distance, height, view);
+    if (in_field_of_view(viewpoint.position, viewpoint.yaw, target, view, view.margin_deg)) {
+      return distance;
+    }
   }
   return view.farthest_m;
 }
 
 }  // namespace
-
-bool in_field_of_view(const Eigen::Vector3d& eye, const Cuboid& target,
-                      const FieldOfViewConfig& config, double margin_deg) {
-  const Eigen::Vector3d in_target = target.pose.inverse() * eye;
-  const Eigen::Vector3d half = 0.5 * target.size;
-  const Eigen::Array2d from_axes = in_target.head<2>().cwiseAbs();
-  const double nearest = (from_axes - half.head<2>().array()).max(0).matrix().norm();
-  const double farthest = (from_axes + half.head<2>().array()).matrix().norm();
-  if (nearest < config.nearest_m || in_target.head<2>().norm() > config.farthest_m) return false;
-  for (const double distance : {nearest, farthest}) {
-    for (const double z : {-half.z(), half.z()}) {
-      const double elevation_deg = std::atan2(z - in_target.z(), distance) / kRadians;
-      if (elevation_deg < config.lowest_deg + margin_deg) return false;
-      if (elevation_deg > config.highest_deg - margin_deg) return false;
-    }
-  }
-  return true;
-}
 
 bool Surroundings::blocked(const Eigen::Vector3d& p_world, double radius) const {
   if (!grid) return false;
@@ -118,7 +103,8 @@ Refusal refusal_of(const Viewpoint& viewpoint, const Cuboid& target, const Viewp
                    const FieldOfViewConfig& view, const Surroundings& surroundings,
                    const InGeofence& in_geofence) {
   const Eigen::Vector3d& eye = viewpoint.position;
-  if (!in_field_of_view(eye, target, view, view.margin_deg)) return Refusal::out_of_view;
+  if (!in_field_of_view(eye, viewpoint.yaw, target, view, view.margin_deg))
+    return Refusal::out_of_view;
   if (!in_geofence(eye)) return Refusal::outside_geofence;
   if (surroundings.blocked(eye, config.clearance_m)) return Refusal::occupied;
   const double visible = visible_share(eye, target, surroundings, config.own_margin_m);
@@ -137,7 +123,7 @@ std::vector<Candidate> sample_viewpoints(const Cuboid& target, int first_id,
     for (int ring = 0; ring < config.rings; ++ring) {
       Candidate& candidate = candidates.emplace_back();
       candidate.viewpoint =
-          viewpoint_at(target, bearing, nearest + ring * config.ring_step_m, config.height_m);
+          viewpoint_at(target, bearing, nearest + ring * config.ring_step_m, config.height_m, view);
       candidate.viewpoint.id = first_id + direction * config.rings + ring;
       candidate.known_free = surroundings.at(candidate.viewpoint.position) == occupancy::Cell::free;
       candidate.refusal =

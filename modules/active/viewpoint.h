@@ -4,44 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "active/field_of_view.h"
 #include "core/config.h"
 #include "core/se3.h"
 #include "objects/models.h"
 #include "occupancy/grid.h"
 
-/// Where to look from: the sensor's field of view, what hides a target, candidate viewpoints.
+/// Where to look from: what hides a target, candidate viewpoints.
 ///
-/// Frames: viewpoints and targets are in `world`, the occupancy block is in `odom`. The lidar is
-/// taken to be level and at the body's place, which `margin_deg` covers.
+/// Frames: viewpoints and targets are in `world`, the occupancy block is in `odom`.
 namespace saker::active {
 
 /// Whether the vehicle may be there; `world`.
 using InGeofence = std::function<bool(const Eigen::Vector3d&)>;
-
-struct FieldOfViewConfig {
-  double lowest_deg = -22.5;
-  double highest_deg = 22.5;
-  double margin_deg = 2;
-  double nearest_m = 2;
-  double farthest_m = 16;
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v.field("lowest_deg", lowest_deg, {-89, 0}, "deg", "the lowest beam: OS1 (second generation)");
-    v.field("highest_deg", highest_deg, {0, 89}, "deg", "the highest beam");
-    v.field("margin_deg", margin_deg, {0, 20}, "deg",
-            "kept of it when a viewpoint is chosen: pitch, and the lidar's place on the body");
-    v.field("nearest_m", nearest_m, {0, 20}, "m", "in x-y to the target's nearest point");
-    v.field("farthest_m", farthest_m, {1, 100}, "m",
-            "in x-y to its centre: farther away a beam's spacing (0.7°) exceeds 0.2 m");
-  }
-};
-
-/// Whether the whole target is between the beams and in the range, from `eye`.
-/// Exact for an upright cuboid: the nearest and the farthest point of its footprint bound the
-/// elevations of its bottom and top.
-[[nodiscard]] bool in_field_of_view(const Eigen::Vector3d& eye, const objects::Cuboid& target,
-                                    const FieldOfViewConfig& config, double margin_deg);
 
 /// An occupancy block seen from `world`. Without a block everything is unknown.
 struct Surroundings {
@@ -66,7 +41,7 @@ struct Viewpoint {
                 ///< of the sweep
   int target_id = -1;  ///< of the prior map's object; −1: none, a stop of the sweep
   Eigen::Vector3d position = Eigen::Vector3d::Constant(NAN);  ///< world, m
-  double yaw = NAN;                                           ///< rad, towards the target
+  double yaw = NAN;                                           ///< rad, so that it sees the target
   double bearing = NAN;  ///< rad, world: from the target to the viewpoint
 
   /// T_world_body there, level.

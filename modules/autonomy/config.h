@@ -100,6 +100,18 @@ struct Config {
   }
 };
 
+/// Where to look next, with the lidar as it is mounted.
+[[nodiscard]] inline active::ActiveConfig active_as_mounted(const Config& config) {
+  active::ActiveConfig active = config.active;
+  active.view.R_body_lidar = lidar::mount_pose(config.mount).linear();
+  return active;
+}
+
+/// Up in the lidar's frame while the body is level.
+[[nodiscard]] inline Eigen::Vector3f up_as_mounted(const Config& config) {
+  return lidar::mount_pose(config.mount).linear().row(2).transpose().cast<float>();
+}
+
 /// The fitted model, null where nothing in the configuration needs one. Throws Error on a file that
 /// is missing or not valid.
 [[nodiscard]] inline std::shared_ptr<const uncertainty::Model> uncertainty_for(

@@ -30,7 +30,7 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       window_(config.detection.window_s),
       uncertainty_(uncertainty_for(config)),
       mapping_(config.detection, config.slam, config.objects, uncertainty_),
-      planning_(config.planning, config.active, config.motion, config.objects, prior,
+      planning_(config.planning, active_as_mounted(config), config.motion, config.objects, prior,
                 config.mission.height_m, uncertainty_),
       guidance_(config.guidance),
       supervisor_(config.safety, config.mission, planning_.geofence()),
@@ -39,7 +39,8 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       slam_schedule_(config.rates.slam_hz),
       planning_schedule_(config.planning.rate_hz),
       pool_(threads - 1, [this] {
-        return std::make_unique<segmentation::Segmentation>(config_.segmentation, config_.objects);
+        return std::make_unique<segmentation::Segmentation>(config_.segmentation, config_.objects,
+                                                            up_as_mounted(config_));
       }) {
   const LatencyConfig latency = core::checked(config.latency, "latency");
   if (latency.planning_s >= config.planning.horizon_s) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "active/discovery.h"
+#include "core/error.h"
 
 namespace saker::autonomy {
 namespace {
@@ -37,6 +38,7 @@ Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& act
                    const objects::ObjectMap& prior, double home_height_m,
                    std::shared_ptr<const uncertainty::Model> model)
     : config_(core::checked(config, "planning")),
+      view_(active.view),
       planner_(motion),
       policy_(std::make_unique<active::Discovery>(
           active, table,
@@ -45,7 +47,12 @@ Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& act
               [fence = planner_.geofence()](const Eigen::Vector3d& p) { return fence.contains(p); },
               std::move(model), motion.limits),
           planner_.geofence())),
-      home_(0, 0, home_height_m) {}
+      home_(0, 0, home_height_m) {
+  if (active::sees_ahead(view_)) return;
+  throw Error(
+      "mount.rotation_deg: the lidar does not see where the vehicle flies, which is nose first: "
+      "expected level beams ahead; tilt it to a side (roll)");
+}
 
 Planning::Output Planning::step(const PlanningInput& input, const core::Budget& budget) {
   Output output;
@@ -155,6 +162,9 @@ Planning::Way Planning::way_to(const Goal& goal, const PlanningInput& input,
   request.takeoff = kTakeoffFoot;
   request.seed = ++searches_;
   motion::PlanResult result = planner_.plan(request, budget);
+  if (result.status != motion::PlanStatus::ok || result.partial) {
+    if (const auto way = turn_to(goal, input, request, budget, output)) return *way;
+  }
   if (result.status != motion::PlanStatus::ok) {
     refused(output.report, fmt::format("{}: {}", to_string(result.status), result.reason));
     return Way::refused;
@@ -163,6 +173,28 @@ Planning::Way Planning::way_to(const Goal& goal, const PlanningInput& input,
   const motion::MotionState& end = result.trajectory.states.back();
   const Goal found{end.position, goal.yaw ? std::optional(end.yaw) : std::nullopt};
   if (leads_to(committed, found) && clear(input)) return Way::as_near_as_it_gets;
+  output.proposal = Proposal{std::move(result.trajectory), committed.id};
+  return Way::proposed;
+}
+
+/// Where what is committed ends, to the way on to the goal: a lidar that does not see all around
+/// may not have seen it. \return none where it sees all around, or has turned.
+std::optional<Planning::Way> Planning::turn_to(const Goal& goal, const PlanningInput& input,
+                                               motion::PlanRequest request,
+                                               const core::Budget& budget, Output& output) {
+  if (active::sees_all_around(view_)) return std::nullopt;
+  const motion::Trajectory& committed = *input.committed;
+  const motion::MotionState& end = committed.states.back();
+  const Eigen::Vector2d way = (goal.position - end.position).head<2>();
+  if (way.norm() <= config_.goal_tolerance_m) return std::nullopt;
+  const Goal turned{end.position, std::atan2(way.y(), way.x())};
+  if (leads_to(committed, turned)) {
+    return input.now < committed.end() ? std::optional(Way::turning) : std::nullopt;
+  }
+  request.goal = turned.position;
+  request.goal_yaw = turned.yaw;
+  motion::PlanResult result = planner_.plan(request, budget);
+  if (result.status != motion::PlanStatus::ok) return std::nullopt;
   output.proposal = Proposal{std::move(result.trajectory), committed.id};
   return Way::proposed;
 }

@@ -57,8 +57,8 @@ struct PlanningInput {
 
 class Planning {
  public:
-  /// Throws Error on an invalid configuration or prior map, and without a model where the policy
-  /// needs one.
+  /// Throws Error on an invalid configuration or prior map, without a model where the policy needs
+  /// one, and on a lidar that does not see where the vehicle flies.
   Planning(const PlanningConfig& config, const active::ActiveConfig& active,
            const motion::MotionConfig& motion, const objects::ClassTable& table,
            const objects::ObjectMap& prior, double home_height_m,
@@ -80,17 +80,21 @@ class Planning {
     Eigen::Vector3d position = Eigen::Vector3d::Constant(NAN);
     std::optional<double> yaw;
   };
-  enum class Way { there, proposed, as_near_as_it_gets, refused };
+  enum class Way { there, proposed, as_near_as_it_gets, turning, refused };
 
   void tour(const PlanningInput& input, const core::Budget& budget, Output& output);
   void home(const PlanningInput& input, const core::Budget& budget, Output& output);
   [[nodiscard]] Way way_to(const Goal& goal, const PlanningInput& input, const core::Budget& budget,
                            Output& output);
+  [[nodiscard]] std::optional<Way> turn_to(const Goal& goal, const PlanningInput& input,
+                                           motion::PlanRequest request, const core::Budget& budget,
+                                           Output& output);
   [[nodiscard]] bool leads_to(const motion::Trajectory& trajectory, const Goal& goal) const;
   void refused(PlanningReport& report, std::string text);
   void count_targets(const active::ActivePlan& plan, PlanningReport& report) const;
 
   PlanningConfig config_;
+  active::FieldOfViewConfig view_;
   motion::MotionPlanner planner_;
   std::unique_ptr<active::Policy> policy_;
   Eigen::Vector3d home_;  // world

@@ -88,7 +88,7 @@ std::vector<Exchange::Contact> Exchange::contacts(Time now) const {
   std::vector<Contact> all;
   for (const auto& [channel, link] : links_) {
     all.push_back({channel, link.counterpart, link.peer.heard(), link.peer.in_contact(now),
-                   link.peer.all_sent()});
+                   link.peer.all_sent(), link.peer.all_heard()});
   }
   return all;
 }

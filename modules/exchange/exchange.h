@@ -47,7 +47,8 @@ class Exchange {
     std::string counterpart;  ///< empty before any was heard
     std::optional<Time> heard;
     bool in_contact = false;
-    bool all_sent = false;  ///< the counterpart holds all that we do
+    bool all_sent = false;   ///< the counterpart holds all that we do
+    bool all_heard = false;  ///< we hold all that the counterpart said it holds
   };
 
   /// \param name  under which this process seals: R1, BASE

@@ -1,5 +1,6 @@
 #include "exchange/packed_history.h"
 
+#include <bit>
 #include <cmath>
 
 #include "exchange/bytes.h"
@@ -10,7 +11,7 @@
 namespace saker::exchange {
 namespace {
 
-constexpr std::uint8_t kVersion = 2;
+constexpr std::uint8_t kVersion = 3;
 constexpr int kMostClasses = 256;
 constexpr std::size_t kMostMeasurements = 5000;         // of one entry: an object map makes one
 constexpr Time kMostStamp = 9'000'000'000'000'000'000;  // ns
@@ -41,6 +42,39 @@ SE3 pack_motion(const SE3& from, const SE3& to, CodedWriter& out) {
 
 bool has_covariance(const Matrix6d& covariance) {
   return covariance.allFinite() && covariance.diagonal().minCoeff() >= 0;
+}
+
+void pack_numbers(const Vector6d& numbers, ByteWriter& out) {
+  for (const double number : numbers)
+    out.fixed(std::bit_cast<std::uint32_t>(static_cast<float>(number)));
+}
+
+Vector6d unpack_numbers(ByteReader& in) {
+  Vector6d numbers;
+  for (double& number : numbers)
+    number = static_cast<double>(std::bit_cast<float>(in.fixed<std::uint32_t>()));
+  return numbers;
+}
+
+/// Whether there is one comes first.
+void pack_takeoff(const std::optional<slam::PosePrior>& takeoff, ByteWriter& out) {
+  out.byte(takeoff ? 1 : 0);
+  if (!takeoff) return;
+  pack_numbers(core::se3_log(takeoff->pose), out);
+  pack_numbers(takeoff->covariance.diagonal(), out);
+}
+
+/// False where it is none.
+bool unpack_takeoff(ByteReader& in, std::optional<slam::PosePrior>& takeoff) {
+  if (in.byte() == 0) return true;
+  const Vector6d pose = unpack_numbers(in), variances = unpack_numbers(in);
+  if (!pose.allFinite() || pose.head<3>().norm() > kMostTurn ||
+      pose.cwiseAbs().maxCoeff() > kFarthest) {
+    return false;
+  }
+  if (!variances.allFinite() || variances.minCoeff() <= 0) return false;
+  takeoff = slam::PosePrior{core::se3_exp(pose), variances.asDiagonal()};
+  return true;
 }
 
 /// What an entry is read after.
@@ -76,8 +110,9 @@ std::optional<slam::HistoryEntry> unpacked_entry(const Before& before, int class
 
 }  // namespace
 
-HistoryPacker::HistoryPacker(const std::string& robot, std::uint32_t flight, int classes)
-    : robot_(robot), flight_(flight), classes_(classes) {}
+HistoryPacker::HistoryPacker(const std::string& robot, std::uint32_t flight, int classes,
+                             const std::optional<slam::PosePrior>& takeoff)
+    : robot_(robot), flight_(flight), classes_(classes), takeoff_(takeoff) {}
 
 std::string HistoryPacker::header() const {
   ByteWriter out;
@@ -85,6 +120,7 @@ std::string HistoryPacker::header() const {
   out.text(robot_);
   out.varint(flight_);
   out.varint(static_cast<std::uint64_t>(classes_));
+  pack_takeoff(takeoff_, out);
   return out.bytes();
 }
 
@@ -118,8 +154,9 @@ std::string HistoryPacker::pack(const slam::HistoryEntry& entry) {
   return out.bytes();
 }
 
-std::string packed(const slam::History& history, int classes) {
-  HistoryPacker packer(history.robot, history.flight, classes);
+std::string packed(const slam::History& history, int classes,
+                   const std::optional<slam::PosePrior>& takeoff) {
+  HistoryPacker packer(history.robot, history.flight, classes, takeoff);
   std::string bytes = packer.header();
   for (const slam::HistoryEntry& entry : history.entries) bytes += packer.pack(entry);
   return bytes;
@@ -132,8 +169,8 @@ std::optional<UnpackedHistory> unpacked(std::string_view bytes) {
   result.history.robot = in.text();
   result.history.flight = static_cast<std::uint32_t>(in.varint());
   const std::uint64_t classes = in.varint();
-  const bool header = !in.failed() && version == kVersion && is_name(result.history.robot) &&
-                      classes > 0 && classes <= kMostClasses;
+  const bool header = version == kVersion && unpack_takeoff(in, result.takeoff) && !in.failed() &&
+                      is_name(result.history.robot) && classes > 0 && classes <= kMostClasses;
   if (!header) return std::nullopt;
   result.classes = static_cast<int>(classes);
   Before before;

@@ -7,9 +7,13 @@
 
 #include "exchange/coded.h"
 #include "slam/history.h"
+#include "slam/trajectory.h"
 
 /// A flight in bytes: a header, then one entry after another, so that what was packed earlier is
 /// the beginning of what is packed later.
+///
+/// The header says where the flight began in the team's frame, if anybody measured it: pose and
+/// variances as single-precision numbers, the rest of the covariance is zero.
 ///
 /// Poses are relative to the previous one as it is unpacked, so that errors do not add up: 1 mm,
 /// 0.01°, 1 µs. Models: 1 mm, 0.01°, sizes 1 cm, radii 1 mm; class probabilities 1/64; covariances
@@ -21,7 +25,9 @@ namespace saker::exchange {
 class HistoryPacker {
  public:
   /// \param classes  in the class table: entries of every class_probability
-  HistoryPacker(const std::string& robot, std::uint32_t flight, int classes);
+  /// \param takeoff  T_base_odom, where it was surveyed
+  HistoryPacker(const std::string& robot, std::uint32_t flight, int classes,
+                const std::optional<slam::PosePrior>& takeoff = std::nullopt);
 
   /// What every history begins with.
   [[nodiscard]] std::string header() const;
@@ -36,6 +42,7 @@ class HistoryPacker {
   std::string robot_;
   std::uint32_t flight_;
   int classes_;
+  std::optional<slam::PosePrior> takeoff_;
   Time stamp_ = 0;
   SE3 T_odom_lidar_ = SE3::Identity();  // of the last entry, as it is unpacked
   Statistics statistics_;
@@ -43,10 +50,12 @@ class HistoryPacker {
 };
 
 /// Header and all entries.
-[[nodiscard]] std::string packed(const slam::History& history, int classes);
+[[nodiscard]] std::string packed(const slam::History& history, int classes,
+                                 const std::optional<slam::PosePrior>& takeoff = std::nullopt);
 
 struct UnpackedHistory {
   slam::History history;
+  std::optional<slam::PosePrior> takeoff;  ///< T_base_odom
   int classes = 0;
   std::size_t bytes = 0;  ///< that were whole entries; what follows is cut or damaged
 };

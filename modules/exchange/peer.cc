@@ -29,6 +29,12 @@ bool Peer::all_sent() const {
   });
 }
 
+bool Peer::all_heard() const {
+  return std::ranges::all_of(remotes_, [this](const auto& remote) {
+    return remote.second.conflict || remote.second.held.contiguous <= store_.size(remote.first);
+  });
+}
+
 // What comes in.
 
 void Peer::begin_contact() {

@@ -86,6 +86,8 @@ class Peer {
   [[nodiscard]] bool in_contact(Time now) const;
   /// Nothing left that the counterpart lacks, as far as it said.
   [[nodiscard]] bool all_sent() const;
+  /// Nothing left that the counterpart holds and we lack, as far as it said.
+  [[nodiscard]] bool all_heard() const;
   /// When the counterpart was heard last; nothing before.
   [[nodiscard]] std::optional<Time> heard() const { return heard_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }

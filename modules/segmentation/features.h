@@ -27,6 +27,9 @@ inline constexpr int kChannelCount = static_cast<int>(kChannels.size());
 
 class Features {
  public:
+  /// \param up  as GroundHeight's.
+  explicit Features(const Eigen::Vector3f& up = Eigen::Vector3f::UnitZ()) : ground_(up) {}
+
   /// channel × row × column. Cost: 5 ms for 64×1024.
   const std::vector<float>& compute(const RangeImage& image);
 

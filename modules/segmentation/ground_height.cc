@@ -70,7 +70,7 @@ void GroundHeight::find_normals(const RangeImage& image) {
 }
 
 void GroundHeight::find_up() {
-  up_ = Eigen::Vector3f::UnitZ();
+  up_ = mounted_up_;
   for (const float cosine : kConeCosine) {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int count = 0;

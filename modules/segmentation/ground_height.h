@@ -10,7 +10,8 @@ namespace saker::segmentation {
 /// Height above the local ground, for every pixel of a range image: the one input that means the
 /// same to a car's roof, a hovering robot and a tilted one.
 ///
-/// 1. Up: the mean of the surface normals, in a cone about z that shrinks (60°, 30°, 15°).
+/// 1. Up: the mean of the surface normals, in a cone that shrinks (60°, 30°, 15°) about what is up
+///    as the lidar is mounted.
 /// 2. Ground: the lowest point in each cell of 1.5 m along that direction, then the greatest
 ///    surface under those that nowhere climbs faster than 25 % (a distance transform in two
 ///    passes), so that roofs and crowns with no ground below them get the ground beside them.
@@ -20,6 +21,9 @@ namespace saker::segmentation {
 /// them do not count. Cost: 2–3 ms for 64×1024.
 class GroundHeight {
  public:
+  /// \param up  unit, lidar frame, while the vehicle is level: z, unless the lidar is tilted.
+  explicit GroundHeight(const Eigen::Vector3f& up = Eigen::Vector3f::UnitZ()) : mounted_up_(up) {}
+
   /// Unit normals towards the sensor, lidar frame, zero where a pixel has no surface around it.
   [[nodiscard]] const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
   [[nodiscard]] const Eigen::Vector3f& up() const { return up_; }             ///< unit, lidar frame
@@ -47,7 +51,8 @@ class GroundHeight {
   std::vector<bool> pit_;               // of each cell
   std::vector<std::int32_t> strays_;
   std::vector<float> scratch_;
-  Eigen::Vector3f up_ = Eigen::Vector3f::UnitZ();
+  Eigen::Vector3f mounted_up_;
+  Eigen::Vector3f up_ = mounted_up_;
 };
 
 }  // namespace saker::segmentation

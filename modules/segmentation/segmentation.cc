@@ -30,8 +30,11 @@ Network load(const SegmentationConfig& config, const objects::ClassTable& table)
 
 }  // namespace
 
-Segmentation::Segmentation(const SegmentationConfig& config, const objects::ClassTable& table)
-    : config_(core::checked(config, "segmentation")), network_(load(config_, table)) {}
+Segmentation::Segmentation(const SegmentationConfig& config, const objects::ClassTable& table,
+                           const Eigen::Vector3f& up)
+    : config_(core::checked(config, "segmentation")),
+      network_(load(config_, table)),
+      features_(up) {}
 
 lidar::Labels Segmentation::segment(const lidar::Scan& scan) {
   project(scan, image_);

@@ -26,16 +26,19 @@ struct SegmentationConfig {
 /// Stage 2: reads a scan (lidar; deskewed or not, organised or not, any number of beams), makes the
 /// class and its probability for every point (for detection).
 ///
-/// Frames: the scan's lidar frame; up is found in the scan itself (ground_height.h), so a tilted
-/// sensor at any height will do. Method: range image (range_image.h), geometry per pixel
-/// (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut down, as the
-/// paper's sec. IV-A does (network.h; trained by tools/training on simulated scans only), back to
-/// the points (back_projection.h). A scan without finite points is all `other` with probability 0.
-/// Cost: README.md. One thread, one instance a thread; the same scan gives the same bytes.
+/// Frames: the scan's lidar frame; up is found in the scan itself (ground_height.h) near where it
+/// is said to be, so a tilted sensor at any height will do. Method: range image (range_image.h),
+/// geometry per pixel (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut
+/// down, as the paper's sec. IV-A does (network.h; trained by tools/training on simulated scans
+/// only), back to the points (back_projection.h). A scan without finite points is all `other` with
+/// probability 0. Cost: README.md. One thread, one instance a thread; the same scan gives the same
+/// bytes.
 class Segmentation {
  public:
   /// Throws Error: a missing or wrong model, or a description that does not fit the class table.
-  Segmentation(const SegmentationConfig& config, const objects::ClassTable& table);
+  /// \param up  unit, lidar frame, to within 45°.
+  Segmentation(const SegmentationConfig& config, const objects::ClassTable& table,
+               const Eigen::Vector3f& up = Eigen::Vector3f::UnitZ());
 
   /// The classes are indices into the table.
   [[nodiscard]] lidar::Labels segment(const lidar::Scan& scan);

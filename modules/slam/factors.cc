@@ -51,12 +51,11 @@ bool PoseFactor::Evaluate(double const* const* parameters, double* residuals,
 }
 
 CuboidFactor::CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance,
-                           double shorter_weight)
+                           const HiddenEndConfig& hidden_ends)
     : T_measured_lidar_(measured.pose.inverse()),
       size_(measured.size),
       whitening_(whitening<9>(covariance)),
-      length_(measured.size.x() >= measured.size.y() ? 0 : 1),
-      shorter_weight_(shorter_weight) {}
+      hidden_ends_(measured, covariance, hidden_ends) {}
 
 bool CuboidFactor::Evaluate(double const* const* parameters, double* residuals,
                             double** jacobians) const {
@@ -64,13 +63,12 @@ bool CuboidFactor::Evaluate(double const* const* parameters, double* residuals,
   Vector9d error;
   error.head<6>() = core::se3_log(T_measured_lidar_ * T_lidar_cuboid);
   error.tail<3>() = Eigen::Map<const Eigen::Vector3d>(parameters[1] + kPoseParameters) - size_;
-  Eigen::Vector3d weight = Eigen::Vector3d::Ones();
-  if (error[6 + length_] > 0) weight[length_] = shorter_weight_;
-  error.tail<3>().array() *= weight.array();
-  Eigen::Map<Vector9d>{residuals} = whitening_ * error;
+  const HiddenEnds::Softened softened = hidden_ends_(error);
+  Eigen::Map<Vector9d>{residuals} = whitening_ * softened.error;
   if (jacobians == nullptr) return true;
+  const Matrix9d slope = whitening_ * softened.slope;
   const Eigen::Matrix<double, 9, 6> J =
-      whitening_.leftCols<6>() * core::se3_right_jacobian_inverse(error.head<6>());
+      slope.leftCols<6>() * core::se3_right_jacobian_inverse(error.head<6>());
   if (jacobians[0] != nullptr) {
     const Eigen::Matrix<double, 9, 6> moved = -J * core::se3_adjoint(T_lidar_cuboid.inverse());
     JacobianMap<9, 7>{jacobians[0]} = moved * pose_lift(parameters[0]);
@@ -78,7 +76,7 @@ bool CuboidFactor::Evaluate(double const* const* parameters, double* residuals,
   if (jacobians[1] != nullptr) {
     JacobianMap<9, 10> object(jacobians[1]);
     object.leftCols<7>() = J * pose_lift(parameters[1]);
-    object.rightCols<3>() = whitening_.rightCols<3>() * weight.asDiagonal();
+    object.rightCols<3>() = slope.rightCols<3>();
   }
   return true;
 }
@@ -122,9 +120,9 @@ bool CylinderFactor::Evaluate(double const* const* parameters, double* residuals
 
 std::unique_ptr<ceres::CostFunction> object_factor(const objects::Model& measured,
                                                    const Eigen::MatrixXd& covariance,
-                                                   double shorter_weight) {
+                                                   const HiddenEndConfig& hidden_ends) {
   if (const auto* cuboid = std::get_if<objects::Cuboid>(&measured)) {
-    return std::make_unique<CuboidFactor>(*cuboid, covariance, shorter_weight);
+    return std::make_unique<CuboidFactor>(*cuboid, covariance, hidden_ends);
   }
   return std::make_unique<CylinderFactor>(std::get<objects::Cylinder>(measured), covariance);
 }

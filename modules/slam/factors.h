@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "slam/hidden_ends.h"
 #include "slam/manifolds.h"
 
 /// The paper's factors with analytic Jacobians, each residual whitened by its measurement's
@@ -39,15 +40,13 @@ class PoseFactor final : public ceres::SizedCostFunction<kPoseTangent, kPosePara
 /// Equation 1: e = [log(H(z)⁻¹ · T_lidar_world · T_world_cuboid), d − d(z)], Σ in the measured
 /// cuboid's own frame.
 ///
-/// With `shorter_weight` below 1 an object that is longer than it was measured costs less than one
-/// that is shorter, by its square: what was seen is there, and part of it may have been hidden
-/// (asymmetric least squares; Newey and Powell, "Asymmetric Least Squares Estimation and Testing",
-/// Econometrica 1987). 1 is the paper's equation.
+/// Its ends may have been hidden (hidden_ends.h): with many `sds` it is the paper's
+/// equation.
 class CuboidFactor final
     : public ceres::SizedCostFunction<kCuboidTangent, kPoseParameters, kCuboidParameters> {
  public:
   CuboidFactor(const objects::Cuboid& measured, const Matrix9d& covariance,
-               double shorter_weight = 1);
+               const HiddenEndConfig& hidden_ends);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
@@ -55,8 +54,7 @@ class CuboidFactor final
   SE3 T_measured_lidar_;
   Eigen::Vector3d size_;
   Matrix9d whitening_;
-  Eigen::Index length_;  ///< the longer horizontal side's place in `size_`
-  double shorter_weight_;
+  HiddenEnds hidden_ends_;
 };
 
 /// Equation 2: e = [R b + t − b(z), R n − n(z), r − r(z)], seven rows. Σ is that of the
@@ -75,8 +73,8 @@ class CylinderFactor final
 };
 
 /// The factor between a lidar pose and the object that was measured from it.
-[[nodiscard]] std::unique_ptr<ceres::CostFunction> object_factor(const objects::Model& measured,
-                                                                 const Eigen::MatrixXd& covariance,
-                                                                 double shorter_weight);
+[[nodiscard]] std::unique_ptr<ceres::CostFunction> object_factor(
+    const objects::Model& measured, const Eigen::MatrixXd& covariance,
+    const HiddenEndConfig& hidden_ends);
 
 }  // namespace saker::slam

@@ -12,27 +12,24 @@ struct Vote {
   Landmark landmark;
 };
 
-/// m, in x-y: from farther away detection loses a vehicle's end and says that it is sure.
-constexpr double kNear = 18;
-
-bool from_near(const Observation& observation) {
-  return objects::place(observation.measured.model).head<2>().norm() <= kNear;
+bool from_near(const Observation& observation, double near_m) {
+  return objects::place(observation.measured.model).head<2>().norm() <= near_m;
 }
 
 /// One for each flight that saw it from near by; none where only one flight saw it at all.
-std::vector<Vote> votes_on(const Landmark& landmark, std::size_t number) {
+std::vector<Vote> votes_on(const Landmark& landmark, std::size_t number, double near_m) {
   std::vector<Vote> votes;
   if (!is_cuboid(landmark.model)) return votes;
   std::set<int> all, near;
   for (const Observation& o : landmark.observations) {
     all.insert(o.chain);
-    if (from_near(o)) near.insert(o.chain);
+    if (from_near(o, near_m)) near.insert(o.chain);
   }
   if (all.size() < 2) return votes;
   for (const int flight : near) {
     Vote& vote = votes.emplace_back(Vote{number, landmark});
     std::erase_if(vote.landmark.observations,
-                  [&](const Observation& o) { return o.chain != flight || !from_near(o); });
+                  [&](const Observation& o) { return o.chain != flight || !from_near(o, near_m); });
   }
   return votes;
 }
@@ -86,15 +83,16 @@ bool solve_held(Chains chains, const std::vector<Landmark*>& landmarks, const Gr
 
 }  // namespace
 
-void weigh_flights(std::vector<Landmark>& landmarks, Chains chains, const GraphConfig& config,
-                   const core::Budget& budget) {
+void weigh_flights(std::vector<Landmark>& landmarks, Chains chains, const GraphConfig& graph,
+                   const MergeConfig& config, const core::Budget& budget) {
   std::vector<Vote> votes;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    std::ranges::move(votes_on(landmarks[i], i), std::back_inserter(votes));
+    std::ranges::move(votes_on(landmarks[i], i, config.near_m), std::back_inserter(votes));
   }
+  if (votes.empty()) return;
   std::vector<Landmark*> solved;
   for (Vote& vote : votes) solved.push_back(&vote.landmark);
-  if (!solve_held(chains, solved, config, budget)) return;
+  if (!solve_held(chains, solved, graph, budget)) return;
   for (auto first = votes.begin(); first != votes.end();) {
     const auto last =
         std::find_if(first, votes.end(), [&](const Vote& v) { return v.of != first->of; });
@@ -104,8 +102,7 @@ void weigh_flights(std::vector<Landmark>& landmarks, Chains chains, const GraphC
     for (; first != last; ++first) {
       spans.push_back(span_of(std::get<objects::Cuboid>(first->landmark.model), vehicle, longer));
     }
-    set_span(vehicle, asymmetric_mean(spans, config.shorter_weight * config.shorter_weight),
-             longer);
+    set_span(vehicle, asymmetric_mean(spans, config.shorter_flight), longer);
   }
 }
 

@@ -16,6 +16,8 @@
 namespace saker::slam {
 namespace {
 
+constexpr HiddenEndConfig kNothingHidden{.sds = 1e9};
+
 int parameter_count(const Model& model) {
   return is_cuboid(model) ? kCuboidParameters : kCylinderParameters;
 }
@@ -57,14 +59,17 @@ std::size_t held(const Chain& chain) {
   return std::max<std::size_t>(chain.free_from, chain.prior ? 0 : 1);
 }
 
+/// Of a cell, what a hidden end takes from the length is in its bias already.
+const HiddenEndConfig& hidden_ends_of(const Observation& observation, const GraphConfig& config) {
+  return observation.cell < 0 ? config.hidden_ends : kNothingHidden;
+}
+
 /// Poses and landmarks as a Ceres problem. All parameters lie in one array in the order of
 /// keyframes and landmarks, so that nothing depends on addresses.
 class Graph {
  public:
   Graph(Chains chains, std::span<Landmark* const> landmarks, const GraphConfig& config)
-      : loss_(config.robust_scale),
-        shorter_weight_(config.shorter_weight),
-        problem_(keep_ownership()) {
+      : config_(config), loss_(config.robust_scale), problem_(keep_ownership()) {
     reserve(chains, landmarks);
     for (std::size_t c = 0; c < chains.size(); ++c) add_chain(chains[c], c);
     for (std::size_t l = 0; l < landmarks.size(); ++l) add_landmark(chains, *landmarks[l], l);
@@ -123,14 +128,12 @@ class Graph {
       const auto c = static_cast<std::size_t>(observation.chain);
       const int k = observation.keyframe - chains[c].keyframes->front().serial;
       if (k < 0) continue;
-      problem_.AddResidualBlock(factor_of(observation).release(), weighted_loss(weights[i]),
-                                pose(c, static_cast<std::size_t>(k)), parameters);
+      const Gaussian& measured = observation.measured;
+      problem_.AddResidualBlock(
+          object_factor(measured.model, measured.covariance, hidden_ends_of(observation, config_))
+              .release(),
+          weighted_loss(weights[i]), pose(c, static_cast<std::size_t>(k)), parameters);
     }
-  }
-
-  /// Of a cell, what a hidden end takes from the length is in its bias already.
-  [[nodiscard]] std::unique_ptr<ceres::CostFunction> factor_of(const Observation& o) const {
-    return object_factor(o.measured.model, o.measured.covariance, o.cell < 0 ? shorter_weight_ : 1);
   }
 
   /// What is an outlier stays one, however many windows of its cell it shares the weight with.
@@ -141,12 +144,12 @@ class Graph {
     return weighted_losses_.back().get();
   }
 
+  const GraphConfig& config_;
   PoseManifold pose_manifold_;
   CuboidManifold cuboid_manifold_;
   CylinderManifold cylinder_manifold_;
   ceres::CauchyLoss loss_;
   std::vector<std::unique_ptr<ceres::ScaledLoss>> weighted_losses_;
-  double shorter_weight_;
   std::vector<double> parameters_;
   std::vector<std::size_t> first_pose_;  ///< of each chain, among all
   std::vector<std::size_t> offsets_;
@@ -175,32 +178,59 @@ struct NormalEquations {
 struct Weighted {
   Gaussian measured;
   double weight = 1;
+  HiddenEndConfig hidden_ends = kNothingHidden;
 };
 
-void add_observation(const Model& model, const Weighted& observation, double robust_scale,
-                     NormalEquations& sum) {
+/// The error of an estimate as its factor weighs it, by the estimate's tangent: whitened², slope.
+struct Residual {
+  Eigen::VectorXd error;
+  Eigen::MatrixXd slope, information;
+
+  [[nodiscard]] double squared() const { return error.dot(information * error); }
+};
+
+Residual residual_of(const Model& model, const Weighted& observation) {
   const Gaussian& measured = observation.measured;
-  const Eigen::VectorXd error = difference(measured.model, model);
-  const Eigen::MatrixXd information =
-      measured.covariance.llt().solve(Eigen::MatrixXd::Identity(error.size(), error.size()));
-  const double squared = error.dot(information * error);
-  const double weight = observation.weight / (1 + squared / (robust_scale * robust_scale));
-  sum.information += weight * information;
-  sum.gradient += weight * information * error;
+  Residual residual;
+  residual.error = -difference(measured.model, model);
+  const Eigen::Index size = residual.error.size();
+  residual.slope = Eigen::MatrixXd::Identity(size, size);
+  residual.information = measured.covariance.llt().solve(residual.slope);
+  if (!is_cuboid(model)) return residual;
+  const HiddenEnds hidden_ends(std::get<objects::Cuboid>(measured.model), measured.covariance,
+                               observation.hidden_ends);
+  const HiddenEnds::Softened softened = hidden_ends(residual.error);
+  residual.error = softened.error;
+  residual.slope = softened.slope;
+  return residual;
 }
 
-double robust_cost(const Model& model, std::span<const Weighted> all, double robust_scale) {
+/// What Cauchy's kernel leaves of a squared error's weight.
+double robust_weight(double squared, const GraphConfig& config) {
+  return 1 / (1 + squared / (config.robust_scale * config.robust_scale));
+}
+
+void add_observation(const Model& model, const Weighted& observation, const GraphConfig& config,
+                     NormalEquations& sum) {
+  const Residual residual = residual_of(model, observation);
+  const double weight = observation.weight * robust_weight(residual.squared(), config);
+  const Eigen::MatrixXd weighted = weight * residual.slope.transpose() * residual.information;
+  sum.information += weighted * residual.slope;
+  sum.gradient -= weighted * residual.error;
+}
+
+double robust_cost(const Model& model, std::span<const Weighted> all, const GraphConfig& config) {
   double cost = 0;
-  for (const auto& [measured, weight] : all) {
-    const Eigen::VectorXd error = difference(measured.model, model);
-    const double squared = error.dot(measured.covariance.llt().solve(error));
-    cost += weight * std::log1p(squared / (robust_scale * robust_scale));
+  for (const Weighted& observation : all) {
+    const double squared = residual_of(model, observation).squared();
+    cost -= observation.weight * std::log(robust_weight(squared, config));
   }
   return cost;
 }
 
 /// All that was measured of a landmark, in the world frame by the estimated poses.
-std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains) {
+std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains,
+                                   const GraphConfig& config) {
   const std::vector<double> weights = observation_weights(landmark);
   std::vector<Weighted> all;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -208,25 +238,23 @@ std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains) {
     const Chain& chain = chains[static_cast<std::size_t>(observation.chain)];
     const Keyframe* keyframe = find(*chain.keyframes, observation.keyframe);
     if (keyframe == nullptr) continue;
-    all.push_back(
-        {transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured), weights[i]});
+    all.push_back({transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured),
+                   weights[i], hidden_ends_of(observation, config)});
   }
   return all;
 }
 
 /// The measurement with the covariance that its factor and its loss make of it at the estimate.
-Gaussian as_weighed(Gaussian measured, const Model& estimate, double shorter_weight,
-                    const GraphConfig& config) {
-  if (const auto* cuboid = std::get_if<objects::Cuboid>(&measured.model)) {
-    const int longer = cuboid->size.x() >= cuboid->size.y() ? 0 : 1;
-    if (cuboid->size[longer] < std::get<objects::Cuboid>(estimate).size[longer]) {
-      measured.covariance.row(6 + longer) /= std::sqrt(shorter_weight);
-      measured.covariance.col(6 + longer) /= std::sqrt(shorter_weight);
-    }
+Gaussian as_weighed(const Weighted& observation, const Model& estimate, const GraphConfig& config) {
+  Gaussian measured = observation.measured;
+  if (is_cuboid(estimate)) {
+    const Vector9d error = -difference(measured.model, estimate);
+    const HiddenEnds hidden_ends(std::get<objects::Cuboid>(measured.model), measured.covariance,
+                                 observation.hidden_ends);
+    const Matrix9d widened = hidden_ends(error).secant.inverse();
+    measured.covariance = widened * measured.covariance * widened.transpose();
   }
-  const Eigen::VectorXd error = difference(measured.model, estimate);
-  const double squared = error.dot(measured.covariance.llt().solve(error));
-  measured.covariance *= 1 + squared / (config.robust_scale * config.robust_scale);
+  measured.covariance /= robust_weight(residual_of(estimate, observation).squared(), config);
   return measured;
 }
 
@@ -268,10 +296,9 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
   for (Observation& observation : handed) {
     const Gaussian in_world =
         transformed(from.T_world_lidar, Matrix6d::Zero(), observation.measured);
-    const double shorter_weight = observation.cell < 0 ? config.shorter_weight : 1;
-    observation.measured =
-        transformed(to.T_world_lidar.inverse(), Matrix6d::Zero(),
-                    as_weighed(in_world, landmark.model, shorter_weight, config));
+    observation.measured = transformed(
+        to.T_world_lidar.inverse(), Matrix6d::Zero(),
+        as_weighed({in_world, 1, hidden_ends_of(observation, config)}, landmark.model, config));
     observation.keyframe = to.serial;
     remember(landmark, observation);
   }
@@ -282,25 +309,25 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
 }
 
 void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config) {
-  const std::vector<Weighted> all = all_in_world(landmark, chains);
+  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
   if (all.size() < 2) return;
   Model newest = all.back().measured.model;
   if (auto* cylinder = std::get_if<objects::Cylinder>(&newest)) {
     cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
   }
-  const double now = robust_cost(landmark.model, all, config.robust_scale);
-  if (robust_cost(newest, all, config.robust_scale) < now) landmark.model = newest;
+  const double now = robust_cost(landmark.model, all, config);
+  if (robust_cost(newest, all, config) < now) landmark.model = newest;
 }
 
 Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config) {
   restart_if_better(landmark, chains, config);
   const Eigen::Index size = is_cuboid(landmark.model) ? kCuboidTangent : kCylinderTangent;
-  const std::vector<Weighted> all = all_in_world(landmark, chains);
+  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
   NormalEquations sum;
   for (int step = 0; step < kRefineSteps; ++step) {
     sum = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
     for (const Weighted& observation : all) {
-      add_observation(landmark.model, observation, config.robust_scale, sum);
+      add_observation(landmark.model, observation, config, sum);
     }
     const auto solver = sum.information.llt();
     if (solver.info() != Eigen::Success) return {};
@@ -312,10 +339,8 @@ Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& con
 std::vector<double> robust_weights(const Landmark& landmark, Chains chains,
                                    const GraphConfig& config) {
   std::vector<double> weights;
-  for (const Weighted& observation : all_in_world(landmark, chains)) {
-    const Eigen::VectorXd error = difference(observation.measured.model, landmark.model);
-    const double squared = error.dot(observation.measured.covariance.llt().solve(error));
-    weights.push_back(1 / (1 + squared / (config.robust_scale * config.robust_scale)));
+  for (const Weighted& observation : all_in_world(landmark, chains, config)) {
+    weights.push_back(robust_weight(residual_of(landmark.model, observation).squared(), config));
   }
   return weights;
 }

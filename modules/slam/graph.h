@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/budget.h"
+#include "slam/hidden_ends.h"
 #include "slam/landmark.h"
 #include "slam/trajectory.h"
 
@@ -13,7 +14,7 @@ struct GraphConfig {
   int iterations = 4;
   double function_tolerance = 1e-5;
   double robust_scale = 3;
-  double shorter_weight = 0.25;
+  HiddenEndConfig hidden_ends;
   int movable_keyframes = 600;
 
   template <class Visitor>
@@ -26,10 +27,7 @@ struct GraphConfig {
         "robust_scale", robust_scale, {0.1, 1000}, "",
         "Cauchy's scale on whitened errors of objects: half weight at 9, the mean of nine degrees "
         "of freedom; parts taken for wholes, far from where covariances hold, weigh little");
-    v.field("shorter_weight", shorter_weight, {0.01, 1}, "",
-            "of the length's error where a vehicle was measured shorter than it is: a hidden end; "
-            "0.25 makes of many "
-            "windows their 94 % expectile");
+    v.group("hidden_ends", hidden_ends, "ends of vehicles that were hidden");
     v.field("movable_keyframes", movable_keyframes, {1, 100000}, "",
             "the newest so many move; older ones are held where they are: what a cycle costs does "
             "not grow for ever. Ten minutes at 1 m/s");

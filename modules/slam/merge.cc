@@ -12,6 +12,7 @@ namespace {
 constexpr double kClassClamp = 1e-6;
 constexpr std::size_t kMostMeasurements = 5000;  // of one entry: an object map makes one
 constexpr double kSure = 1;                      // shape probability: its robot believed in it
+constexpr double kToSettle = 0.3;                // of the time: the final solves of the whole graph
 constexpr std::size_t kYoung = 10;  // observations of an object whose first may have been a part
 
 bool is_of(const MergedFlight& flight, const History& history) {
@@ -68,6 +69,7 @@ MultiRobotSlam::MultiRobotSlam(const SlamConfig& config, const objects::ClassTab
 MergeReport MultiRobotSlam::add(const History& history,
                                 const std::optional<PosePrior>& T_world_odom,
                                 const core::Budget& budget) {
+  const double given_s = budget.seconds_left();
   MergeReport report;
   std::size_t chain = 0;
   while (chain < flights_.size() && !is_of(flights_[chain], history)) ++chain;
@@ -86,6 +88,7 @@ MergeReport MultiRobotSlam::add(const History& history,
     ++report.entries;
     if (report.entries % config_.merge.track_every == 0) track(chain);
     if (report.entries % config_.merge.loop_every == 0 && close_loop(chain, report)) spread(chain);
+    if (budget.seconds_left() < kToSettle * given_s) break;
   }
   track(chain);
   (void)close_loop(chain, report);
@@ -228,10 +231,7 @@ void MultiRobotSlam::spread(std::size_t chain) {
   std::vector<Chain> all = chains();
   for (std::size_t c = 0; c < all.size(); ++c)
     if (c != chain) all[c].free_from = all[c].keyframes->size();
-  GraphConfig graph = config_.graph;
-  graph.iterations = config_.merge.iterations;
-  graph.robust_scale *= config_.merge.first_scale;
-  (void)solve_graph(all, pointers(landmarks_), graph,
+  (void)solve_graph(all, pointers(landmarks_), whole_graph(config_.merge.first_scale),
                     core::Budget::iterations(config_.merge.iterations));
 }
 
@@ -246,18 +246,19 @@ void MultiRobotSlam::join(const Alignment& loop) {
   }
 }
 
+GraphConfig MultiRobotSlam::whole_graph(double scale) const {
+  GraphConfig graph = config_.graph;
+  graph.iterations = config_.merge.iterations;
+  graph.robust_scale *= scale;
+  return graph;
+}
+
 SolveReport MultiRobotSlam::solve_narrowing(const core::Budget& budget) {
   const std::vector<Chain> all = chains();
   const std::vector<Landmark*> landmarks = pointers(landmarks_);
-  GraphConfig graph = config_.graph;
-  graph.iterations = config_.merge.iterations;
-  SolveReport report;
-  for (double scale = config_.merge.first_scale; scale > 1; scale /= 2) {
-    graph.robust_scale = scale * config_.graph.robust_scale;
-    (void)solve_graph(all, landmarks, graph, budget);
-  }
-  graph.robust_scale = config_.graph.robust_scale;
-  return solve_graph(all, landmarks, graph, budget);
+  for (double scale = config_.merge.first_scale; scale > 1; scale /= 2)
+    (void)solve_graph(all, landmarks, whole_graph(scale), budget);
+  return solve_graph(all, landmarks, whole_graph(1), budget);
 }
 
 void MultiRobotSlam::settle(const core::Budget& budget, MergeReport& report) {
@@ -267,12 +268,9 @@ void MultiRobotSlam::settle(const core::Budget& budget, MergeReport& report) {
   // Two objects cannot stand on one ground: there a flight mismeasured the one that it saw.
   const int rejoined = merge_duplicates(landmarks_, config_.duplicates, landmark_config_);
   report.split = apart - rejoined;
-  GraphConfig graph = config_.graph;
-  graph.iterations = config_.merge.iterations;
-  if (joined + apart > 0) {
-    report.solve = solve_graph(chains(), pointers(landmarks_), graph, budget);
-  }
-  weigh_flights(landmarks_, chains(), graph, budget);
+  if (joined + apart > 0)
+    report.solve = solve_graph(chains(), pointers(landmarks_), whole_graph(1), budget);
+  weigh_flights(landmarks_, chains(), whole_graph(1), config_.merge, budget);
 }
 
 /// Where one flight's measurements of an object lie far from those of another flight they are of

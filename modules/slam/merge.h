@@ -60,7 +60,8 @@ class MultiRobotSlam {
   /// Throws Error on an invalid value.
   MultiRobotSlam(const SlamConfig& config, const objects::ClassTable& table);
 
-  /// Adds what is new of a history; entries that are in the graph already are skipped.
+  /// Adds what is new of a history; entries that are in the graph already are skipped. Where the
+  /// budget has a deadline, those that are left then wait for the next call.
   /// \param T_world_odom of a flight that is new: where its odometry starts, if anybody knows.
   MergeReport add(const History& history, const std::optional<PosePrior>& T_world_odom,
                   const core::Budget& budget);
@@ -89,6 +90,7 @@ class MultiRobotSlam {
   bool close_loop(std::size_t chain, MergeReport& report);
   void spread(std::size_t chain);
   void join(const Alignment& loop);
+  [[nodiscard]] GraphConfig whole_graph(double scale) const;  ///< of the robust kernel
   SolveReport solve_narrowing(const core::Budget& budget);
   void settle(const core::Budget& budget, MergeReport& report);
   [[nodiscard]] int split();

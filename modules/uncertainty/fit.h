@@ -18,6 +18,7 @@ namespace saker::uncertainty {
 struct FitConfig {
   std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
+  double whole_m = 0.4;
   int least_objects = 10;
   int least_draws = 5;
   int folds = 5;
@@ -30,6 +31,9 @@ struct FitConfig {
     v.field("range_edges_m", range_edges_m, {0, 1000}, "m", "of the intervals of range, ascending");
     v.field("sectors", sectors, {2, 36}, "",
             "of the viewing angle between front and back, for cuboids: 30 degrees each");
+    v.field("whole_m", whole_m, {0, 100}, "m",
+            "a cuboid whose length is off by more is a part of an object or more than one: left "
+            "out, for SLAM's error has tails for those");
     v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
     v.field("least_draws", least_draws, {1, 100000}, "",
             "of objects in an interval, below it counts as not flown");

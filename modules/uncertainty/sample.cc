@@ -159,6 +159,14 @@ Sample sample_of(const objects::Measurement& measurement, const objects::Model& 
   return sample;
 }
 
+std::vector<Sample> whole(std::vector<Sample> samples, double most_m) {
+  constexpr Eigen::Index kCuboid = 4, kLength = 2;
+  std::erase_if(samples, [&](const Sample& sample) {
+    return sample.error.size() == kCuboid && std::abs(sample.error[kLength]) > most_m;
+  });
+  return samples;
+}
+
 std::vector<Sample> read_samples(const std::filesystem::path& file,
                                  const objects::ClassTable& table) {
   const std::string text = core::read_file(file);

@@ -33,6 +33,10 @@ struct Sample {
                                const objects::Model& measured, const objects::Model& truth,
                                const Eigen::Vector3d& eye);
 
+/// Without the cuboids whose length is off by more than `most_m`: parts of an object, or more than
+/// one. SLAM's error has heavy tails for those (slam/hidden_ends.h).
+[[nodiscard]] std::vector<Sample> whole(std::vector<Sample> samples, double most_m);
+
 /// CSV with a header line; one line a sample, angles in radians, unknown numbers as nan. Throws
 /// Error that names file, line and what was expected.
 [[nodiscard]] std::vector<Sample> read_samples(const std::filesystem::path& file,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "active/column.h"
 #include "core/error.h"
@@ -15,7 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using namespace made;
 
-constexpr double kFarthest = 16;
+const FieldOfViewConfig kView;
 
 /// Flies from stop to stop. \return how many.
 int fly_over(Coverage& coverage, const occupancy::OccupancyGrid& grid,
@@ -24,7 +25,7 @@ int fly_over(Coverage& coverage, const occupancy::OccupancyGrid& grid,
   for (auto next = coverage.next(); next && flown < 10'000; next = coverage.next(), ++flown) {
     const Vector2d place = coverage.stops()[*next];
     for (int second = 0; second < 3; ++second) {
-      coverage.look({place.x(), place.y(), 3}, 1, {&grid, SE3::Identity()}, map);
+      coverage.look({place.x(), place.y(), 3}, 0, 1, {&grid, SE3::Identity()}, map);
     }
     coverage.close(*next);
   }
@@ -37,7 +38,7 @@ TEST(Coverage, HasAStopWithinTheSpacingOfEveryPointOfTheFence) {
   for (const auto& [name, corners] : all) {
     const motion::Geofence fence = fence_of(corners);
     const SweepConfig config;
-    const Coverage coverage(config, kFarthest, fence);
+    const Coverage coverage(config, kView, fence);
     const double cell = std::sqrt(2.0) * config.cell_m;
     for (const Vector2d& p : points_in(fence)) {
       double nearest = std::numeric_limits<double>::infinity();
@@ -48,19 +49,19 @@ TEST(Coverage, HasAStopWithinTheSpacingOfEveryPointOfTheFence) {
 }
 
 TEST(Coverage, OfAnOpenPlaceIsComplete) {
-  Coverage coverage({}, kFarthest, box_fence(50, 30));
+  Coverage coverage({}, kView, box_fence(50, 30));
   const int flown = fly_over(coverage, free_grid(60));
   EXPECT_GT(coverage.seen_share(), 0.95);
   EXPECT_LE(flown, static_cast<int>(coverage.stops().size()));
 }
 
 TEST(Coverage, LeavesStopsOutWhoseSurroundingsWereSeen) {
-  Coverage coverage({}, kFarthest, box_fence(50, 30));
+  Coverage coverage({}, kView, box_fence(50, 30));
   EXPECT_LT(fly_over(coverage, free_grid(60)), 0.7 * static_cast<double>(coverage.stops().size()));
 }
 
 TEST(Coverage, WithoutAnOccupancyBlockGoesToEveryStopOnce) {
-  Coverage coverage({}, kFarthest, box_fence(20, 15));
+  Coverage coverage({}, kView, box_fence(20, 15));
   const occupancy::OccupancyGrid nothing;
   EXPECT_EQ(fly_over(coverage, nothing), static_cast<int>(coverage.stops().size()));
   EXPECT_EQ(coverage.seen_share(), 0);
@@ -69,24 +70,38 @@ TEST(Coverage, WithoutAnOccupancyBlockGoesToEveryStopOnce) {
 TEST(Coverage, DoesNotCountWhatIsUnknown) {
   auto grid = free_grid(60);
   fill(grid, {10, -60, -1}, {60, 60, 7}, occupancy::Cell::unknown);
-  Coverage coverage({}, kFarthest, box_fence(50, 30));
+  Coverage coverage({}, kView, box_fence(50, 30));
   fly_over(coverage, grid);
   EXPECT_NEAR(coverage.seen_share(), 0.6, 0.03);
 }
 
 TEST(Coverage, CountsNoGlance) {
-  Coverage coverage({}, kFarthest, box_fence(10, 10));
+  Coverage coverage({}, kView, box_fence(10, 10));
   const auto grid = free_grid(30);
-  coverage.look({0, 0, 3}, 2.5, {&grid, SE3::Identity()}, nullptr);
+  coverage.look({0, 0, 3}, 0, 2.5, {&grid, SE3::Identity()}, nullptr);
   EXPECT_EQ(coverage.seen_share(), 0);
   EXPECT_TRUE(coverage.next());
-  coverage.look({0, 0, 3}, 1, {&grid, SE3::Identity()}, nullptr);
+  coverage.look({0, 0, 3}, 0, 1, {&grid, SE3::Identity()}, nullptr);
   EXPECT_EQ(coverage.seen_share(), 1);
   EXPECT_FALSE(coverage.next());
 }
 
+TEST(Coverage, OfALidarOnItsSideIsWhatLiesUnderTheVehicleAndAheadOfIt) {
+  FieldOfViewConfig view;
+  view.R_body_lidar =
+      Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  view.farthest_m = 30;
+  Coverage coverage({}, view, box_fence(20, 20));
+  const auto grid = free_grid(30);
+  coverage.look({0, 0, 20}, 0, 4, {&grid, SE3::Identity()}, nullptr);
+  const double share = coverage.seen_share();
+  EXPECT_NEAR(share, 0.45, 0.1);  // ±8.3 m to the sides under it, ±11.7 m at its ends
+  coverage.look({0, 0, 20}, std::numbers::pi / 2, 4, {&grid, SE3::Identity()}, nullptr);
+  EXPECT_GT(coverage.seen_share(), 1.4 * share);
+}
+
 TEST(Coverage, GoesOnWhereItWasAndNeverOpensAStopAgain) {
-  Coverage coverage({}, kFarthest, box_fence(50, 30));
+  Coverage coverage({}, kView, box_fence(50, 30));
   const std::size_t first = *coverage.next();
   EXPECT_EQ(*coverage.next(), first);
   coverage.close(first);
@@ -98,7 +113,7 @@ TEST(Coverage, GoesOnWhereItWasAndNeverOpensAStopAgain) {
 
 TEST(Coverage, RefusesAFenceThatIsTooLargeByItsKey) {
   try {
-    const Coverage coverage({}, kFarthest, box_fence(5000, 5000));
+    const Coverage coverage({}, kView, box_fence(5000, 5000));
     FAIL();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("most_cells"), std::string::npos) << error.what();
@@ -106,7 +121,7 @@ TEST(Coverage, RefusesAFenceThatIsTooLargeByItsKey) {
 }
 
 TEST(Coverage, OfAFenceSmallerThanASquareEnds) {
-  Coverage coverage({}, kFarthest, box_fence(0.4, 0.4));
+  Coverage coverage({}, kView, box_fence(0.4, 0.4));
   EXPECT_LE(fly_over(coverage, free_grid(5)), 1);
 }
 

@@ -307,7 +307,7 @@ TEST(Discovery, VehicleThatNeverMovesEndsTheSweep) {
   Flight flight({}, {});
   flight.speed = 0;
   const SweepConfig sweep;
-  const Coverage coverage(sweep, 16, box_fence(50, 40));
+  const Coverage coverage(sweep, {}, box_fence(50, 40));
   const double each = sweep.standing_s + 2;
   EXPECT_LT(flight.fly(), static_cast<double>(coverage.stops().size()) * each);
 }

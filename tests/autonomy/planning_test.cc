@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "core/error.h"
 #include "kinematic_flight.h"
 
 namespace saker::autonomy {
@@ -85,6 +88,58 @@ TEST(Planning, EndsWhenNoTrajectoryIsEverClear) {
   };
   EXPECT_LT(flight.run(2400), 600);
   EXPECT_TRUE(flight.mission().done());
+}
+
+active::ActiveConfig with_lidar_turned(double degrees, const Eigen::Vector3d& axis) {
+  active::ActiveConfig active;
+  active.view.R_body_lidar =
+      Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis).toRotationMatrix();
+  return active;
+}
+
+/// Hovers at 3 m, nose to x, with a vehicle 24 m to its left; on that side nothing is known.
+std::optional<Proposal> proposed(const active::ActiveConfig& active) {
+  objects::MapObject car;
+  car.class_id = objects::ClassTable{}.find("vehicle");
+  objects::Cuboid cuboid;
+  cuboid.pose.translation() = Eigen::Vector3d(0, 24, 0.8);
+  car.model = cuboid;
+  objects::ObjectMap prior;
+  prior.objects = {car};
+  Planning planning({}, active, {}, objects::ClassTable{}, prior, 3);
+  occupancy::OccupancyGrid grid = free_block(20);
+  fill(grid, {-20, 1, -1}, {20, 20, 8}, Cell::unknown);
+  PlanningInput input;
+  input.now = kNanosecondsPerSecond;
+  input.order = PlanningOrder::tour;
+  input.odometry.T_odom_body.translation().z() = 3;
+  input.grid = shared(std::move(grid));
+  motion::MotionState here;
+  here.position = {0, 0, 3};
+  here.velocity = here.acceleration = Eigen::Vector3d::Zero();
+  here.yaw = here.yaw_rate = 0;
+  input.committed = std::make_shared<const motion::Trajectory>(resting(input.now, here));
+  return planning.step(input, core::Budget::iterations(1000)).proposal;
+}
+
+TEST(Planning, OfALidarOnItsSideTurnsToAWayThatItHasNotSeen) {
+  const auto proposal = proposed(with_lidar_turned(90, Eigen::Vector3d::UnitX()));
+  ASSERT_TRUE(proposal);
+  const motion::MotionState& end = proposal->trajectory.states.back();
+  EXPECT_LT((end.position - Eigen::Vector3d(0, 0, 3)).norm(), 0.1);
+  EXPECT_NEAR(end.yaw, std::numbers::pi / 2, 0.7) << "to a viewpoint of the vehicle";
+}
+
+TEST(Planning, OfALevelLidarDoesNotTurnOnTheSpot) {
+  const auto proposal = proposed({});
+  if (proposal) {
+    EXPECT_GT((proposal->trajectory.states.back().position - Eigen::Vector3d(0, 0, 3)).norm(), 1);
+  }
+}
+
+TEST(Planning, RefusesALidarThatDoesNotSeeWhereItFlies) {
+  const auto active = with_lidar_turned(45, Eigen::Vector3d::UnitY());
+  EXPECT_THROW(Planning({}, active, {}, objects::ClassTable{}, {}, 3), Error);
 }
 
 TEST(Planning, TwoFlightsAreTheSame) {

@@ -170,12 +170,36 @@ TEST(PackedHistory, AnEntryMoreOnlyAppendsBytes) {
   }
 }
 
+TEST(PackedHistory, SaysWhereTheFlightBeganIfAnybodyMeasuredIt) {
+  const slam::History history = some_history(3, 1, 8);
+  EXPECT_FALSE(unpacked(packed(history, kClasses))->takeoff);
+  core::Rng rng(9);
+  Vector6d pose, variances;
+  pose << some_vector(rng, 1), some_vector(rng, 300);
+  variances << 1e-4, 2e-4, 3e-4, 0.01, 0.02, 0.03;
+  const slam::PosePrior takeoff{core::se3_exp(pose), variances.asDiagonal()};
+  const auto found = unpacked(packed(history, kClasses, takeoff));
+  ASSERT_TRUE(found && found->takeoff);
+  EXPECT_TRUE(found->takeoff->pose.isApprox(takeoff.pose, 1e-6));
+  EXPECT_TRUE(found->takeoff->covariance.isApprox(takeoff.covariance, 1e-6));
+  EXPECT_EQ(found->history.entries.size(), 3U);
+}
+
+TEST(PackedHistory, ATakeOffThatIsNoneMakesTheHistoryNone) {
+  slam::PosePrior takeoff{SE3::Identity(), Matrix6d::Identity()};
+  takeoff.covariance(3, 3) = 0;
+  EXPECT_FALSE(unpacked(packed(some_history(1, 0, 8), kClasses, takeoff)));
+  takeoff.covariance(3, 3) = NAN;
+  EXPECT_FALSE(unpacked(packed(some_history(1, 0, 8), kClasses, takeoff)));
+}
+
 TEST(PackedHistory, ACutEndCostsTheCutEntryOnly) {
   const slam::History history = some_history(5, 2, 4);
-  HistoryPacker packer("R1", 3, kClasses);
+  const slam::PosePrior takeoff{SE3::Identity(), Matrix6d::Identity()};
+  HistoryPacker packer("R1", 3, kClasses, takeoff);
   std::vector<std::size_t> ends = {packer.header().size()};
   for (const auto& entry : history.entries) ends.push_back(ends.back() + packer.pack(entry).size());
-  const std::string whole = packed(history, kClasses);
+  const std::string whole = packed(history, kClasses, takeoff);
   ASSERT_EQ(whole.size(), ends.back());
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     const auto found = unpacked(whole.substr(0, size));

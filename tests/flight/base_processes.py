@@ -65,7 +65,7 @@ class BaseTest(unittest.TestCase):
             time.sleep(0.05)
 
     def stored(self):
-        """{(robot, version): bytes without a gap} of the base's store."""
+        """{(robot, flight): bytes without a gap} of the histories in the base's store."""
         file = self.folder / "base" / "base.db"
         streams = {}
         if not file.exists():
@@ -73,7 +73,7 @@ class BaseTest(unittest.TestCase):
         database = sqlite3.connect(f"file:{file}?mode=ro", uri=True)
         try:
             rows = database.execute("SELECT robot, version, place & 65535, bytes FROM chunks "
-                                    "JOIN streams ON streams.id = place >> 16 ORDER BY place").fetchall()
+                                    "JOIN streams ON streams.id = place >> 16 WHERE kind = 0 ORDER BY place").fetchall()
         except sqlite3.OperationalError:  # not made yet
             rows = []
         finally:

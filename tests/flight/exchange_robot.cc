@@ -8,6 +8,7 @@
 
 #include "base_station/sealed.h"
 #include "bus/bus.h"
+#include "core/files.h"
 #include "core/rng.h"
 #include "exchange/exchange.h"
 #include "exchange/journal_store.h"
@@ -15,7 +16,8 @@
 /// A robot's end of the exchange as a process: what the executive does, without flying, on a
 /// network that loses and repeats messages and hands them over in another order.
 ///   exchange_robot ROBOT KEY FOLDER MADE_BYTES LOSS [URL]
-/// Holds FOLDER/journal; tops its own history up to MADE_BYTES bytes that follow from its name.
+/// Holds FOLDER/journal; tops its own history up to what FOLDER/history.bin has or else to
+/// MADE_BYTES bytes that follow from its name.
 /// Writes FOLDER/STREAM.bytes of all that it holds, and FOLDER/sent, when SIGTERM comes.
 namespace saker::flight {
 namespace {
@@ -36,6 +38,12 @@ std::string made_bytes(const std::string& robot, std::size_t size) {
   std::string bytes(size, '\0');
   for (char& byte : bytes) byte = static_cast<char>(rng.uniform(0, 256));
   return bytes;
+}
+
+std::string own_history(const Options& options) {
+  const std::filesystem::path file = options.folder + "/history.bin";
+  return std::filesystem::exists(file) ? core::read_file(file)
+                                       : made_bytes(options.robot, options.made_bytes);
 }
 
 Time now() {
@@ -81,7 +89,7 @@ void run(const Options& options) {
   std::filesystem::create_directories(options.folder);
   exchange::JournalStore store(options.folder + "/journal");
   const exchange::StreamId own{options.robot, exchange::StreamKind::history, 1};
-  const std::string bytes = made_bytes(options.robot, options.made_bytes);
+  const std::string bytes = own_history(options);
   if (store.size(own) < bytes.size())
     (void)store.append(own, std::string_view(bytes).substr(store.size(own)));
   exchange::PeerConfig config;

@@ -71,10 +71,10 @@ class ARobotsExchange : public testing::Test {
     return *base_;
   }
 
-  /// Until `done`, at most ten seconds.
+  /// Until `done`.
   template <class Done>
-  bool run(RobotExchange& robot, const Done& done) {
-    for (const auto end = Steady::now() + milliseconds(10000); Steady::now() < end && !done();) {
+  bool run(RobotExchange& robot, const Done& done, milliseconds longest = milliseconds(10000)) {
+    for (const auto end = Steady::now() + longest; Steady::now() < end && !done();) {
       robot.step();
       while (base_in_reach) {
         const auto datagram = base().next(now());
@@ -139,6 +139,60 @@ TEST_F(ARobotsExchange, WithoutABaseFlightsWaitInTheFolderUntilOneIsInReach) {
   EXPECT_TRUE(held.bytes(stream(2)) == packed(flight(20, 2)));
 }
 
+TEST_F(ARobotsExchange, HearsOfEveryFlightThatTheBaseHasAndThenThatThereIsNoMore) {
+  slam::History other = flight(30, 7);
+  other.robot = "R2";
+  const exchange::StreamId stream{"R2", exchange::StreamKind::history, 7};
+  ASSERT_TRUE(held.append(stream, packed(other)));
+  RobotExchange robot(config, network());
+  EXPECT_FALSE(robot.heard_all());
+  EXPECT_TRUE(run(robot, [&] { return robot.heard_all(); }));
+  const auto told = robot.told_flights();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].history.robot, "R2");
+  EXPECT_EQ(told[0].history.flight, 7U);
+  EXPECT_EQ(told[0].history.entries.size(), 30U);
+}
+
+TEST_F(ARobotsExchange, OutOfReachThereIsNobodyToHear) {
+  base_in_reach = false;
+  RobotExchange robot(config, network());
+  EXPECT_FALSE(run(
+      robot, [&] { return robot.heard_all(); }, milliseconds(1500)));
+  EXPECT_FALSE(robot.in_reach());
+}
+
+TEST_F(ARobotsExchange, BytesThatAreNoFlightOrAnotherRobotsAreNotTakenForOne) {
+  ASSERT_TRUE(held.append({"R2", exchange::StreamKind::history, 1}, std::string(500, 'x')));
+  slam::History other = flight(5, 1);
+  other.robot = "R4";  // told under the name of R3
+  ASSERT_TRUE(held.append({"R3", exchange::StreamKind::history, 1}, packed(other)));
+  RobotExchange robot(config, network());
+  EXPECT_TRUE(run(robot, [&] { return robot.heard_all(); }));
+  EXPECT_TRUE(robot.told_flights().empty());
+}
+
+TEST_F(ARobotsExchange, WhatIsPublishedIsAtTheBaseOnceHoweverManyFlights) {
+  for (int i = 0; i < 2; ++i) {
+    RobotExchange robot(config, network());
+    EXPECT_TRUE(robot.publish(exchange::StreamKind::prior_map, "a map"));
+    robot.add(flight(1, robot.flight()));
+    EXPECT_TRUE(run(robot, [&] { return robot.handed_over(); }));
+  }
+  EXPECT_EQ(held.bytes({"R1", exchange::StreamKind::prior_map, 1}), "a map");
+  EXPECT_EQ(exchange::newest_version(held, "R1", exchange::StreamKind::prior_map), 1U);
+}
+
+TEST_F(ARobotsExchange, TheFlightSaysWhereItBegan) {
+  config.team.takeoff.position_m = {1, 2, 3};
+  RobotExchange robot(config, network());
+  robot.add(flight(3, 1));
+  EXPECT_TRUE(run(robot, [&] { return robot.handed_over(); }));
+  const auto told = exchange::unpacked(held.bytes(stream(1)));
+  ASSERT_TRUE(told && told->takeoff);
+  EXPECT_TRUE(told->takeoff->pose.translation().isApprox(Eigen::Vector3d(1, 2, 3)));
+}
+
 TEST_F(ARobotsExchange, WhatAnotherRobotSaidIsKeptForTheNextFlight) {
   const exchange::StreamId other{"R2", exchange::StreamKind::history, 7};
   ASSERT_TRUE(held.append(other, std::string(5000, 'x')));
@@ -156,15 +210,21 @@ TEST_F(ARobotsExchange, WhatAnotherRobotSaidIsKeptForTheNextFlight) {
 TEST_F(ARobotsExchange, ItsFiguresFitIntoHealth) {
   RobotExchange robot(config, network());
   EXPECT_TRUE(run(robot, [&] { return !robot.figures().empty(); }));
-  constexpr std::size_t kOthers = 4;  // the executive's own
+  constexpr std::size_t kOthers = 7;  // the executive's own, and the briefing's
   EXPECT_LE(robot.figures().size() + kOthers, static_cast<std::size_t>(health_t::MAX_COUNTERS));
   for (const auto& [name, value] : robot.figures())
     EXPECT_LE(name.size(), static_cast<std::size_t>(counter_t::MAX_NAME)) << name;
 }
 
-TEST_F(ARobotsExchange, WithoutTheTeamsKeyItIsRefused) {
+TEST_F(ARobotsExchange, WithoutTheTeamsKeyThereIsNone) {
   std::filesystem::remove(config.exchange.key_file);
-  EXPECT_THROW(RobotExchange(config, network()), Error);
+  EXPECT_EQ(make_exchange(config, network()), nullptr);
+}
+
+TEST_F(ARobotsExchange, AKeyThatEverybodyMayReadIsRefused) {
+  std::filesystem::permissions(config.exchange.key_file, std::filesystem::perms::others_read,
+                               std::filesystem::perm_options::add);
+  EXPECT_THROW((void)make_exchange(config, network()), Error);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "made_scan.h"
 
 namespace saker::segmentation {
@@ -15,7 +17,8 @@ struct Made {
   Eigen::Quaternionf tilt;
   float sensor_m;
 
-  explicit Made(const MadeScan& scan) : tilt(scan.tilt), sensor_m(scan.height_m) {
+  explicit Made(const MadeScan& scan, const Eigen::Vector3f& up = Eigen::Vector3f::UnitZ())
+      : ground(up), tilt(scan.tilt), sensor_m(scan.height_m) {
     project(scan.organised(), image);
     ground.estimate(image);
   }
@@ -49,6 +52,17 @@ TEST_P(GroundHeightAt, IsTheHeightOverAFlatGroundWhateverTheSensorsHeightAndTilt
 INSTANTIATE_TEST_SUITE_P(Sensors, GroundHeightAt,
                          ::testing::Combine(::testing::Values(1.2F, 1.7F, 4.0F, 8.0F),
                                             ::testing::Values(0.0F, 0.1F, 0.25F)));
+
+/// As mounted: while the vehicle leans by a tenth of a radian besides.
+TEST(GroundHeight, OfASensorOnItsSideAt30MetresIsFoundFromWhereUpIsAsMounted) {
+  constexpr float kSide = std::numbers::pi_v<float> / 2;
+  const Eigen::Quaternionf mounted(Eigen::AngleAxisf(kSide, Eigen::Vector3f::UnitX()));
+  const Eigen::Quaternionf lean(Eigen::AngleAxisf(0.1F, Eigen::Vector3f(0.6F, 0.8F, 0)));
+  const Made made({.height_m = 30, .wall_m = 300, .tilt = lean * mounted},
+                  mounted.inverse() * Eigen::Vector3f::UnitZ());
+  EXPECT_GT((made.tilt * made.ground.up()).z(), std::cos(0.02F));
+  EXPECT_LT(worst(made, 60), 0.25F);
+}
 
 TEST(GroundHeight, IsNotPulledDownByReflectionsFromBelow) {
   MadeScan scan;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "made_world.h"
+#include "slam/merge_config.h"
 
 namespace saker::slam {
 namespace {
@@ -41,7 +42,7 @@ struct Flights {
     }
     GraphConfig config;
     config.iterations = 50;
-    weigh_flights(landmarks, chains, config, kPlenty);
+    weigh_flights(landmarks, chains, config, MergeConfig{}, kPlenty);
     return std::get<Cuboid>(landmarks[0].model);
   }
 };
@@ -64,7 +65,7 @@ TEST(FlightLengths, OfTwoFlightsAreTheirExpectile) {
   Flights flights;
   flights.add(5, kCut);
   flights.add(5, kTrue);
-  const double shorter = GraphConfig{}.shorter_weight * GraphConfig{}.shorter_weight;
+  const double shorter = MergeConfig{}.shorter_flight;
   EXPECT_NEAR(flights.weighed().size.x(), (kTrue + shorter * kCut) / (1 + shorter), 0.01);
 }
 

@@ -86,6 +86,17 @@ TEST(Merge, AHistoryThatGrowsIsAddedWhereItEnded) {
   EXPECT_EQ(merged.map().objects.size(), 20U);
 }
 
+TEST(Merge, WhatADeadlineLeavesIsAddedByTheNextCall) {
+  const auto world = ring_of_objects(20, 10);
+  const Flown flown = fly(world, loop(20, 0.6, 1), {}, 31);
+  MultiRobotSlam merged(honest_config(), {});
+  const core::Budget passed = core::Budget::until(core::Budget::Clock::now(), 10);
+  EXPECT_EQ(merged.add(flown.history, std::nullopt, passed).entries, 1);
+  const auto rest = static_cast<int>(flown.history.entries.size()) - 1;
+  EXPECT_EQ(merged.add(flown.history, std::nullopt, kPlenty).entries, rest);
+  EXPECT_EQ(merged.map().objects.size(), 20U);
+}
+
 TEST(Merge, RefusesAHistoryThatIsBrokenAndStaysAsItWas) {
   const auto world = ring_of_objects(20, 10);
   const Flown flown = fly(world, loop(20, 0.6, 0.3), {}, 41);

@@ -78,8 +78,8 @@ class Units(unittest.TestCase):
         names = {"metadata.json": "sensor.json", "prior.json": "prior.json", "site.yaml": "saker.yaml"}
         for source, name in names.items():
             self.run("install", "-m", "644", site / source, f"/etc/saker/{name}")
-        prior = 's|^FLIGHT_OPTIONS=.*|FLIGHT_OPTIONS="--prior /etc/saker/prior.json"|'
-        self.run("sed", "-i", prior, "/etc/default/saker")
+        options = "--prior /etc/saker/prior.json --set active.policy=saker"
+        self.run("sed", "-i", f's|^FLIGHT_OPTIONS=.*|FLIGHT_OPTIONS="{options}"|', "/etc/default/saker")
         return site
 
     def take_off(self):
@@ -136,6 +136,7 @@ class Units(unittest.TestCase):
         site = self.take_off()
         self.wait_for(FLIGHT, "ActiveState", "inactive", 240)
         self.assertEqual(self.show(FLIGHT, "Result"), "success", self.said(FLIGHT)[-3000:])
+        self.assertIn("the base has this flight", self.said(FLIGHT))
         flight = self.run("sh", "-c", "ls -d /var/lib/saker/flights/* | tail -n 1").stdout.strip()
         self.box.wait(pathlib.Path(f"{self.box.root}{site}/truth.json").exists, 20, "truth of the simulator")
         report = self.run("saker", "flight-report", flight, site, "-o", f"{site}/report", check=False)
@@ -152,6 +153,13 @@ class Units(unittest.TestCase):
         log = container.FOLDER / f"simulator{self.flown}.log"
         self.box.wait(lambda: "landed; " in log.read_text(), 40, "landing")
         return log.read_text()
+
+    def test_without_the_teams_key_it_tells_nobody_and_says_so(self):
+        self.simulate()
+        self.run("mv", "/etc/saker/team.key", "/var/tmp/")
+        self.addCleanup(self.run, "mv", "/var/tmp/team.key", "/etc/saker/")
+        self.run("systemctl", "start", FLIGHT)
+        self.assertIn("no key of a team at /etc/saker/team.key: this flight tells nobody", self.said(FLIGHT))
 
     def test_killed_on_the_ground_it_is_restarted(self):
         self.simulate()

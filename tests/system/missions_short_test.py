@@ -8,7 +8,7 @@ from program import ProgramTest
 
 class ShortMission(ProgramTest):
     def test_all_targets_are_found_without_a_collision(self):
-        results = fly("small", self.folder / "out")
+        results = fly("small", self.folder / "out", "--policy", "saker")
         self.assertTrue(results["succeeded"], results["outcome"])
         self.assertEqual(results["found"], results["targets"])
         self.assertEqual(results["collisions"], 0)

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "autonomy/team_map.h"
 #include "core/error.h"
 #include "core/rng.h"
-#include "saker/team_map.h"
 
 namespace saker::tools {
 namespace {
@@ -19,7 +19,7 @@ const DivisionConfig kByWork{.by_work = true};
 std::vector<Places> parts(const Places& targets, const std::vector<std::vector<double>>& lots) {
   std::vector<Places> all(lots.size());
   for (std::size_t i = 0; i < lots.size(); ++i) {
-    const Lot lot(lots[i]);
+    const autonomy::Lot lot(lots[i]);
     std::ranges::copy_if(targets, std::back_inserter(all[i]),
                          [&](const Eigen::Vector3d& p) { return lot.contains(p); });
   }
@@ -78,8 +78,8 @@ TEST(DividedLots, NoOtherBordersMakeTheLongestFlightShorter) {
 TEST(DividedLots, BelongToTheRobotsInTheOrderOfTheirTakeOffs) {
   const Places targets = {{-20, 5, 0}, {20, 5, 0}};
   const auto lots = divided_lots(targets, {{3, 0, 0}, {-3, 0, 0}}, kByWork);
-  EXPECT_TRUE(Lot(lots[0]).contains(targets[1]));
-  EXPECT_TRUE(Lot(lots[1]).contains(targets[0]));
+  EXPECT_TRUE(autonomy::Lot(lots[0]).contains(targets[1]));
+  EXPECT_TRUE(autonomy::Lot(lots[1]).contains(targets[0]));
 }
 
 TEST(DividedLots, OfFewerTargetsThanRobotsAreRefused) {

@@ -105,6 +105,19 @@ TEST(SampleTest, ErrorOfACylinderIsAlongAndLeftOfTheLineOfSight) {
   EXPECT_NEAR(sample.error[1], 0.2, 1e-12);
 }
 
+TEST(SampleTest, PartsAndPairsOfVehiclesAreNotWhole) {
+  std::vector<Sample> samples;
+  for (const double length_error : {-1.1, -0.3, 0.3, 1.2}) {
+    samples.push_back(made(kVehicle, Eigen::Vector4d(0, 0, length_error, 0)));
+  }
+  samples.push_back(made(kPole, Eigen::Vector2d(0.9, 0)));
+  const std::vector<Sample> rest = whole(samples, 0.4);
+  ASSERT_EQ(rest.size(), 3u);
+  EXPECT_EQ(rest[0].error[2], -0.3);
+  EXPECT_EQ(rest[1].error[2], 0.3);
+  EXPECT_EQ(rest[2].error.size(), 2);
+}
+
 TEST_F(SampleFileTest, WhatIsWrittenIsReadBackToTheLastBit) {
   const std::vector<Sample> samples = {made(kVehicle, Eigen::Vector4d(1.0 / 3, -2, 1e-9, 0.7)),
                                        made(kPole, Eigen::Vector2d(0.01, -0.1))};

@@ -34,7 +34,7 @@ struct Task {
 Task task_of(const MissionRun& run, const simulation::MissionWorld& site) {
   if (!run.team) return {site.targets, site.prior, site.fence.polygon_m};
   const TeamRole& role = *run.team;
-  return {role.targets, role.prior, simulation::fence_polygon(role.prior, run.site.site)};
+  return {role.targets, role.prior, role.fence_m};
 }
 
 simulation::SimulatedVehicle vehicle_of(const MissionRun& run) {
@@ -155,7 +155,8 @@ void write_history(const MissionRun& run, slam::History history, const objects::
                    const fs::path& out) {
   history.robot = run.robot;
   history.flight = 1;
-  core::write_file(out / "history.bin", exchange::packed(history, table.size()));
+  const auto takeoff = run.team ? std::optional(run.team->surveyed) : std::nullopt;
+  core::write_file(out / "history.bin", exchange::packed(history, table.size(), takeoff));
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

@@ -11,15 +11,18 @@
 #include "autonomy/config.h"
 #include "saker/target_figures.h"
 #include "simulation/mission_world.h"
+#include "slam/trajectory.h"
 
 namespace saker::tools {
 
 /// What a robot of a team has that a vehicle alone has not.
 struct TeamRole {
   simulation::TakeoffPlace takeoff;
-  std::uint64_t own_seed = 1;  ///< of its instruments
-  std::vector<int> targets;    ///< ids, in the truth, of what it is to map
-  objects::ObjectMap prior;    ///< `world`: what it is told
+  std::uint64_t own_seed = 1;   ///< of its instruments
+  std::vector<int> targets;     ///< ids, in the truth, of what it is to map
+  objects::ObjectMap prior;     ///< `world`: what it is told
+  std::vector<double> fence_m;  ///< `world`: corners of where it may fly
+  slam::PosePrior surveyed;     ///< where it takes off in the team's `base`, as it is told
 };
 
 /// One mission, world and vehicle simulated, in lockstep.

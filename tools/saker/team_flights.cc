@@ -5,19 +5,17 @@
 
 #include <algorithm>
 
-#include "active/targets.h"
+#include "autonomy/team.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "exchange/packed_history.h"
 #include "saker/output.h"
+#include "saker/team_survey.h"
 #include "simulation/truth.h"
 
 namespace saker::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kMergeIterations = 50;
 
 /// Streams of random numbers of a mission.
 enum Stream : std::uint64_t { kSurvey = 40, kInstruments = 41, kLink = 42 };
@@ -45,7 +43,7 @@ Eigen::Vector3d place_of(const TeamSite& site, const objects::MapObject& target)
 }
 
 /// Ids of those that are in the lot.
-std::vector<int> in_lot(const Lot& lot, const TeamSite& site) {
+std::vector<int> in_lot(const autonomy::Lot& lot, const TeamSite& site) {
   std::vector<int> inside;
   for (const objects::MapObject& object : site.truth.objects) {
     const bool target = std::ranges::find(site.targets, object.id) != site.targets.end();
@@ -54,12 +52,14 @@ std::vector<int> in_lot(const Lot& lot, const TeamSite& site) {
   return inside;
 }
 
-/// As the mission file draws them, or by the work in them.
+/// As the mission file draws them, or by the work in them; what nothing was said of ends at the
+/// fence.
 std::vector<std::vector<double>> lots_of(const TeamMission& mission, const TeamSite& site) {
   std::vector<std::vector<double>> lots;
   std::vector<Eigen::Vector3d> targets, takeoffs;
   for (const RobotConfig& robot : mission.config.robots) {
-    lots.push_back(robot.lot_m);
+    const bool fenced = robot.lot_m.empty() && mission.site.site.no_prior;
+    lots.push_back(fenced ? site.fence_m : robot.lot_m);
     takeoffs.emplace_back(robot.x_m, robot.y_m, 0);
   }
   if (!mission.config.division.by_work) return lots;
@@ -91,13 +91,14 @@ TeamSite build_team_site(const TeamMission& mission, std::uint64_t seed) {
         site.said = world.prior;
         site.said.frame = "base";
         site.targets = world.targets;
+        site.fence_m = world.fence.polygon_m;
         lots = lots_of(mission, site);
       }
       const SE3 T_base_world = world.T_sim_base.inverse() * world.T_sim_world;
-      PlacedRobot robot{
-          .T_base_world = T_base_world,
-          .surveyed = surveyed(T_base_world, mission.config.takeoff, stream(seed, kSurvey, i)),
-          .lot = Lot(lots[i])};
+      PlacedRobot robot{.T_base_world = T_base_world,
+                        .surveyed = surveyed(T_base_world, mission.config.takeoff.survey,
+                                             stream(seed, kSurvey, i)),
+                        .lot = autonomy::Lot(lots[i])};
       robot.targets = in_lot(robot.lot, site);
       if (robot.targets.empty()) throw Error("lot_m: no target stands there");
       site.robots.push_back(std::move(robot));
@@ -115,8 +116,8 @@ TeamFlights::TeamFlights(const TeamMission& mission, const TeamSite& site,
       site_(site),
       common_(common),
       out_(std::move(out)),
-      table_(mission.robots.front().objects),
-      merged_(mission.robots.front().slam, table_) {}
+      table_(mission.base.objects),
+      merged_(mission.base.slam, table_) {}
 
 void TeamFlights::fly_all() {
   for (std::size_t i = 0; i < site_.robots.size(); ++i) fly(i);
@@ -144,7 +145,7 @@ void TeamFlights::fly(std::size_t robot) {
                             history.size()));
   }
   flight.after = contact(2 * robot + 1, own);
-  merge(robot, flight);
+  merge(flight);
   flights_.push_back(std::move(flight));
 }
 
@@ -162,14 +163,22 @@ objects::ObjectMap TeamFlights::prior_of(std::size_t robot, TeamFlight& flight) 
   objects::ObjectMap mapped;
   const bool heard = flight.before.complete && !mission_.config.at_once;
   if (heard && !flights_.empty()) mapped = map();
-  const objects::ObjectMap prior =
-      next_prior(site_.said, mapped, placed.lot, mission_.config.known_gate_m, table_);
-  const active::TargetList targets(mission_.robots[robot].active.targets, table_, prior);
-  flight.known = targets.size() - targets.count(active::TargetStatus::pending);
-  for (const objects::MapObject& object : prior.objects)
-    flight.weak += object.covariance.size() > 0;
-  flight.weak -= flight.known;
-  return in_frame("world", placed.surveyed.pose.inverse(), prior);
+  const autonomy::TeamPrior told =
+      autonomy::team_prior(site_.said, mapped, placed.lot, mission_.config.known_gate_m,
+                           mission_.robots[robot].active.targets, table_);
+  flight.known = told.known;
+  flight.weak = told.weak;
+  return autonomy::in_frame("world", placed.surveyed.pose.inverse(), told.prior);
+}
+
+/// In the frame in which the robot believes to have taken off: about what it is told of, or what
+/// was said of the site.
+std::vector<double> TeamFlights::fence_of(std::size_t robot,
+                                          const objects::ObjectMap& prior) const {
+  if (!mission_.site.site.no_prior) {
+    return simulation::fence_polygon(prior, mission_.site.site);
+  }
+  return autonomy::in_frame(site_.robots[robot].surveyed.pose.inverse(), site_.fence_m);
 }
 
 /// Now, or when the mission was interrupted.
@@ -181,7 +190,8 @@ Json TeamFlights::flown(std::size_t robot, const objects::ObjectMap& prior) cons
                  .robot = name,
                  .team = TeamRole{takeoff_of(mission_, robot),
                                   static_cast<std::uint64_t>(own_seed.index(1 << 30)),
-                                  site_.robots[robot].targets, prior},
+                                  site_.robots[robot].targets, prior, fence_of(robot, prior),
+                                  site_.robots[robot].surveyed},
                  .site = site_of(mission_, robot),
                  .config = mission_.robots[robot],
                  .seed = common_.seed,
@@ -191,13 +201,13 @@ Json TeamFlights::flown(std::size_t robot, const objects::ObjectMap& prior) cons
 }
 
 /// What the base holds of the flight goes into the one graph.
-void TeamFlights::merge(std::size_t robot, TeamFlight& flight) {
+void TeamFlights::merge(TeamFlight& flight) {
   const auto received = exchange::unpacked(base_.bytes(history_of(flight.robot)));
   if (!received) {
     flight.merge.status = slam::MergeStatus::nothing_new;
   } else {
-    flight.merge = merged_.add(received->history, site_.robots[robot].surveyed,
-                               core::Budget::iterations(kMergeIterations));
+    flight.merge = merged_.add(received->history, received->takeoff,
+                               core::Budget::iterations(autonomy::kMergeIterations));
   }
   spdlog::info(
       "{}: {} bytes of history, {} keyframes merged, {} measurements of known objects, "

@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <vector>
 
+#include "autonomy/team_map.h"
 #include "exchange/store.h"
 #include "saker/mission_run.h"
 #include "saker/subcommand.h"
 #include "saker/team_link.h"
-#include "saker/team_map.h"
+#include "saker/team_mission.h"
 #include "slam/merge.h"
 
 namespace saker::tools {
@@ -16,15 +17,16 @@ namespace saker::tools {
 struct PlacedRobot {
   SE3 T_base_world = SE3::Identity();  ///< true
   slam::PosePrior surveyed{};          ///< the same as the team knows it
-  Lot lot;
+  autonomy::Lot lot;
   std::vector<int> targets{};  ///< ids, in the truth, of what truly stands in its lot
 };
 
 /// The site, in base.
 struct TeamSite {
   objects::ObjectMap truth;
-  objects::ObjectMap said;   ///< beforehand
-  std::vector<int> targets;  ///< ids of the vehicles to be mapped
+  objects::ObjectMap said;      ///< beforehand
+  std::vector<int> targets;     ///< ids of the vehicles to be mapped
+  std::vector<double> fence_m;  ///< corners: all that is said where nothing is of the targets
   std::vector<PlacedRobot> robots;
 };
 
@@ -63,9 +65,11 @@ class TeamFlights {
  private:
   void fly(std::size_t robot);
   [[nodiscard]] objects::ObjectMap prior_of(std::size_t robot, TeamFlight& flight) const;
+  [[nodiscard]] std::vector<double> fence_of(std::size_t robot,
+                                             const objects::ObjectMap& prior) const;
   [[nodiscard]] Json flown(std::size_t robot, const objects::ObjectMap& prior) const;
   [[nodiscard]] ContactFigures contact(std::size_t number, exchange::Store& robot);
-  void merge(std::size_t robot, TeamFlight& flight);
+  void merge(TeamFlight& flight);
 
   const TeamMission& mission_;
   const TeamSite& site_;

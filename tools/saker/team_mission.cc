@@ -60,7 +60,8 @@ simulation::MissionConfig read_site(const std::string& file) {
 
 TeamMission read_team_mission(const std::filesystem::path& file, const autonomy::Config& config) {
   TeamMission mission{.config = core::load_config<TeamMissionConfig>(file, {}),
-                      .name = file.stem().string()};
+                      .name = file.stem().string(),
+                      .base = config};
   if (mission.config.scenario.empty()) {
     throw Error(fmt::format("{}: scenario: missing, expected a file", file.string()));
   }

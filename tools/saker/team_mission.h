@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "autonomy/config.h"
+#include "autonomy/team_config.h"
 #include "lidar/mount.h"
 #include "saker/team_division.h"
 #include "saker/team_link.h"
@@ -40,19 +41,14 @@ struct RobotConfig {
   }
 };
 
-/// How well take-off poses are known.
+/// Where robots take off.
 struct TakeoffSurveyConfig {
-  double place_sd_m = 0.1;
-  double heading_sd_deg = 1;
-  double level_sd_deg = 0.5;
+  autonomy::SurveyConfig survey;
   double within_m = 8;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("place_sd_m", place_sd_m, {0.001, 10}, "m", "along each axis: by a tape");
-    v.field("heading_sd_deg", heading_sd_deg, {0.01, 45}, "°",
-            "set down by eye along a line on the ground");
-    v.field("level_sd_deg", level_sd_deg, {0.01, 10}, "°", "of an accelerometer's level");
+    survey.visit(v);
     v.field("within_m", within_m, {0, 100}, "m",
             "of a place that is not free, the nearest free one is taken");
   }
@@ -66,7 +62,7 @@ struct TeamMissionConfig {
   DivisionConfig division;
   LinkConfig link;
   bool at_once = false;
-  double known_gate_m = 3;
+  double known_gate_m = autonomy::TeamConfig{}.known_gate_m;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -88,6 +84,7 @@ struct TeamMission {
   TeamMissionConfig config;
   std::string name{};  ///< of the file, without its ending
   simulation::MissionConfig site{};
+  autonomy::Config base{};                 ///< what the base is told, which merges
   std::vector<autonomy::Config> robots{};  ///< one each: what its program is told
 };
 

@@ -1,15 +1,12 @@
-#include "saker/team_map.h"
+#include "autonomy/team_map.h"
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 
 #include "objects/comparison.h"
 
-namespace saker::tools {
+namespace saker::autonomy {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 bool is_target(const objects::MapObject& object, const objects::ClassTable& table) {
   return object.class_id < table.size() && table[object.class_id].target;
@@ -44,24 +41,21 @@ objects::ObjectMap in_frame(const std::string& frame, const SE3& T_frame_map,
   return seen;
 }
 
+std::vector<double> in_frame(const SE3& T_frame_map, const std::vector<double>& corners_m) {
+  std::vector<double> seen;
+  for (std::size_t i = 0; i + 1 < corners_m.size(); i += 2) {
+    const Eigen::Vector3d corner = T_frame_map * Eigen::Vector3d(corners_m[i], corners_m[i + 1], 0);
+    seen.insert(seen.end(), {corner.x(), corner.y()});
+  }
+  return seen;
+}
+
 Lot::Lot(const std::vector<double>& corners_m) {
   if (!corners_m.empty()) outline_.emplace(motion::GeofenceConfig{.polygon_m = corners_m});
 }
 
 bool Lot::contains(const Eigen::Vector3d& place) const {
   return !outline_ || outline_->inside_polygon_m(place.head<2>()) >= 0;
-}
-
-slam::PosePrior surveyed(const SE3& T_base_world, const TakeoffSurveyConfig& config,
-                         core::Rng rng) {
-  Vector6d sd;
-  sd << config.level_sd_deg * kDegree, config.level_sd_deg * kDegree,
-      config.heading_sd_deg * kDegree, Eigen::Vector3d::Constant(config.place_sd_m);
-  Vector6d error;
-  // The level's error is the robot's own, in its `world`: the survey adds none.
-  error << 0, 0, rng.normal(0, sd[2]), rng.normal(0, sd[3]), rng.normal(0, sd[4]),
-      rng.normal(0, sd[5]);
-  return {T_base_world * core::se3_exp(error), sd.cwiseAbs2().asDiagonal()};
 }
 
 objects::ObjectMap next_prior(const objects::ObjectMap& said, const objects::ObjectMap& mapped,
@@ -91,4 +85,17 @@ objects::ObjectMap next_prior(const objects::ObjectMap& said, const objects::Obj
   return prior;
 }
 
-}  // namespace saker::tools
+TeamPrior team_prior(const objects::ObjectMap& said, const objects::ObjectMap& mapped,
+                     const Lot& lot, double gate_m, const active::TargetsConfig& config,
+                     const objects::ClassTable& table) {
+  TeamPrior result{.prior = next_prior(said, mapped, lot, gate_m, table)};
+  const active::TargetList targets(config, table, result.prior);
+  result.known = targets.size() - targets.count(active::TargetStatus::pending);
+  for (const objects::MapObject& object : result.prior.objects)
+    result.weak += object.covariance.size() > 0;
+  result.weak -= result.known;
+  result.mapped = static_cast<int>(mapped.objects.size());
+  return result;
+}
+
+}  // namespace saker::autonomy

@@ -1,8 +1,10 @@
-#include "saker/team_map.h"
+#include "autonomy/team_map.h"
 
 #include <gtest/gtest.h>
 
-namespace saker::tools {
+#include <numbers>
+
+namespace saker::autonomy {
 namespace {
 
 const objects::ClassTable kTable;
@@ -26,6 +28,19 @@ std::vector<int> ids(const objects::ObjectMap& map) {
   std::vector<int> list;
   for (const objects::MapObject& object : map.objects) list.push_back(object.id);
   return list;
+}
+
+TEST(InFrame, CornersTurnAndMoveWithTheFrame) {
+  SE3 T_world_base = SE3::Identity();
+  T_world_base.linear() =
+      Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T_world_base.translation() = Eigen::Vector3d(10, 0, 2);
+  const std::vector<double> seen = in_frame(T_world_base, {1, 0, 1, 3});
+  ASSERT_EQ(seen.size(), 4U);
+  EXPECT_NEAR(seen[0], 10, 1e-9);
+  EXPECT_NEAR(seen[1], 1, 1e-9);
+  EXPECT_NEAR(seen[2], 7, 1e-9);
+  EXPECT_NEAR(seen[3], 1, 1e-9);
 }
 
 TEST(NextPrior, HasWhatRobotsMappedInThePlaceOfWhatWasSaid) {
@@ -61,21 +76,5 @@ TEST(NextPrior, LeavesATargetInTheLotInWhichItWasSaidToBe) {
   EXPECT_EQ(ids(next_prior(said, mapped, east, 3, kTable)), (std::vector<int>{1}));
 }
 
-TEST(Surveyed, ErrsAsMuchAsItsCovarianceSays) {
-  const TakeoffSurveyConfig config{.place_sd_m = 0.2, .heading_sd_deg = 3};
-  SE3 T_base_world = SE3::Identity();
-  T_base_world.translation() = Eigen::Vector3d(4, -2, 1);
-  T_base_world.rotate(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()));
-  constexpr int kTries = 2000;
-  double nees = 0;
-  for (int i = 0; i < kTries; ++i) {
-    const slam::PosePrior prior = surveyed(T_base_world, config, core::Rng(7).fork(i));
-    const Vector6d error = core::se3_log(prior.pose.inverse() * T_base_world);
-    EXPECT_NEAR(error.head<2>().norm(), 0, 1e-9);
-    nees += error.tail<4>().cwiseAbs2().cwiseQuotient(prior.covariance.diagonal().tail<4>()).sum();
-  }
-  EXPECT_NEAR(nees / (4 * kTries), 1, 0.1);
-}
-
 }  // namespace
-}  // namespace saker::tools
+}  // namespace saker::autonomy

@@ -4,18 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.h"
+#include "active/targets.h"
 #include "motion/geofence.h"
 #include "objects/class_table.h"
 #include "objects/object_map.h"
-#include "saker/team_mission.h"
-#include "slam/trajectory.h"
 
-namespace saker::tools {
+/// What a robot of a team is told before it flies.
+namespace saker::autonomy {
 
 /// A map seen from another frame.
 [[nodiscard]] objects::ObjectMap in_frame(const std::string& frame, const SE3& T_frame_map,
                                           const objects::ObjectMap& map);
+
+/// The same of corners x1, y1, x2, y2, ….
+[[nodiscard]] std::vector<double> in_frame(const SE3& T_frame_map,
+                                           const std::vector<double>& corners_m);
 
 /// What a lot is made of; an empty one is everything.
 class Lot {
@@ -27,11 +30,6 @@ class Lot {
   std::optional<motion::Geofence> outline_;
 };
 
-/// Where a robot took off, in base, as surveyed: wrong as far as the configuration says.
-/// \param T_base_world as it is
-[[nodiscard]] slam::PosePrior surveyed(const SE3& T_base_world, const TakeoffSurveyConfig& config,
-                                       core::Rng rng);
-
 /// What the next robot is told of its lot, in base: what was said beforehand, and in its place what
 /// robots mapped, with its covariance. Ids of what was said beforehand stay, and so does its lot.
 /// \param mapped  by all robots so far, with covariances
@@ -39,4 +37,17 @@ class Lot {
                                             const objects::ObjectMap& mapped, const Lot& lot,
                                             double gate_m, const objects::ClassTable& table);
 
-}  // namespace saker::tools
+/// The same, and what of it others know already.
+struct TeamPrior {
+  objects::ObjectMap prior;  ///< in base
+  int known = 0;             ///< targets that need no visit (`active.targets.known_sd_m`)
+  int weak = 0;              ///< that robots mapped, but not well enough
+  int mapped = 0;            ///< objects of all classes that robots mapped
+};
+/// Throws Error on more targets than `config` allows.
+[[nodiscard]] TeamPrior team_prior(const objects::ObjectMap& said, const objects::ObjectMap& mapped,
+                                   const Lot& lot, double gate_m,
+                                   const active::TargetsConfig& config,
+                                   const objects::ClassTable& table);
+
+}  // namespace saker::autonomy
