@@ -182,7 +182,7 @@ int experiment(ExperimentOptions options, const CommonOptions& common) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     runs.push_back({out.path() / jobs[i].folder, results[i]});
   }
-  std::cout << write_report(runs, read_configuration(common).autonomy.objects, out.path());
+  std::cout << write_report(runs, out.path());
   return all_good ? 0 : 1;
 }
 

@@ -3,17 +3,16 @@
 #include <algorithm>
 
 #include "core/files.h"
-#include "objects/map_io.h"
 #include "saker/experiment_pictures.h"
 #include "saker/experiment_table.h"
 #include "saker/policy_comparison.h"
-#include "saker/target_figures.h"
 #include "saker/viewpoint_log.h"
 
 namespace saker::tools {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 /// The rows of all scenarios together, one a policy.
 std::vector<TableRow> totals_of(const std::vector<TableRow>& rows) {
@@ -59,22 +58,11 @@ std::vector<std::pair<std::string, std::vector<CalibrationBin>>> calibrations_of
   return calibrations;
 }
 
-/// Runs that were flown before this figure was among the results still have their maps.
-Json with_consistency(const FlownRun& run, const objects::ClassTable& table) {
-  Json results = run.results;
-  const fs::path mapped = run.folder / "map.json", truth = run.folder / "truth.json";
-  if (results.contains("consistency") || !fs::exists(mapped) || !fs::exists(truth)) return results;
-  results["consistency"] =
-      consistency_figures(objects::read_map(mapped, table), objects::read_map(truth, table), table);
-  return results;
-}
-
 }  // namespace
 
-std::string write_report(const std::vector<FlownRun>& runs, const objects::ClassTable& table,
-                         const fs::path& out) {
+std::string write_report(const std::vector<FlownRun>& runs, const fs::path& out) {
   std::vector<Json> results;
-  for (const FlownRun& run : runs) results.push_back(with_consistency(run, table));
+  for (const FlownRun& run : runs) results.push_back(run.results);
   const std::vector<TableRow> rows = pool(results);
   const std::vector<PolicyComparison> comparisons = compare_policies(results);
   std::string text = table_text(rows) + consistency_text(rows) + comparison_text(comparisons);

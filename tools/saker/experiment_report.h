@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
-
 namespace saker::tools {
 
 struct FlownRun {
@@ -18,7 +16,6 @@ struct FlownRun {
 /// viewpoint will tell, calibration-POLICY.png; of several runs also results.json, errors.png and
 /// trajectories.png (each scenario's first seed, its policies side by side).
 /// \return table.txt, to be printed. Throws Error on a file that cannot be read or written.
-std::string write_report(const std::vector<FlownRun>& runs, const objects::ClassTable& table,
-                         const std::filesystem::path& out);
+std::string write_report(const std::vector<FlownRun>& runs, const std::filesystem::path& out);
 
 }  // namespace saker::tools
