@@ -48,6 +48,7 @@ objects::Detections Detection::detect(std::span<const LabelledScan> window) {
   gather(window, table_, config_.window, window_);
   ground_.fit(window_.ground, config_.window.range_m);
   surroundings_.fill(window_.others, config_.window.other_stride, ground_);
+  beams_.fill(window_);
   detect_vehicles(result);
   detect_trunks(result);
   for (const objects::GroundPlane& plane : ground_.planes()) {
@@ -131,9 +132,11 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
     points.push_back({(T_local_level * p.position.cast<double>()).cast<float>(),
                       static_cast<float>(window_.seconds[p.scan])});
   }
-  const VehicleFit fit =
-      fit_vehicle(points, moved(T_local_level, window_.sensors), config_.vehicle);
-  if (fit.status == VehicleStatus::too_large) split_vehicle(indices, splits, result);
+  const VehicleFit fit = fit_vehicle(
+      points, {moved(T_local_level, window_.sensors), beams_, T_level_local}, config_.vehicle);
+  if (fit.status == VehicleStatus::too_large || fit.status == VehicleStatus::parted) {
+    split_vehicle(indices, splits, result);
+  }
   if (fit.status != VehicleStatus::fitted) return;
   const int others = surroundings_.inside(transformed(T_level_local, fit.cuboid));
   objects::Measurement m = classified(class_probability({window_.cuboids, indices, others}),

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "detection/beams.h"
 #include "detection/clusters.h"
 #include "detection/ground.h"
 #include "detection/surroundings.h"
@@ -98,6 +99,7 @@ class Detection {
   Window window_;
   Ground ground_;
   Surroundings surroundings_;
+  Beams beams_;
   Clusters clusters_;
   std::vector<Eigen::Vector2f> places_;
 };

@@ -65,6 +65,17 @@ double closest_direction(const std::vector<Eigen::Vector2d>& points,
 
 }  // namespace
 
+objects::Cuboid upright(double direction, const std::array<Eigen::Vector2d, 2>& plan,
+                        const std::array<double, 2>& height) {
+  const Eigen::Vector3d low(plan[0].x(), plan[0].y(), height[0]);
+  const Eigen::Vector3d high(plan[1].x(), plan[1].y(), height[1]);
+  objects::Cuboid box;
+  box.pose.linear() = Eigen::AngleAxisd(direction, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  box.pose.translation() = box.pose.linear() * (0.5 * (low + high));
+  box.size = high - low;
+  return box;
+}
+
 Footprint fit_footprint(const std::vector<Eigen::Vector2d>& points, const FootprintConfig& config) {
   const std::vector<Eigen::Vector2d> hull = convex_hull(points);
   if (hull.empty()) return {};

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "core/config.h"
+#include "objects/models.h"
 
 /// The rectangle of a vehicle on the ground plane.
 ///
@@ -48,6 +50,12 @@ struct Footprint {
   Eigen::Vector2d high = Eigen::Vector2d::Zero();  ///< upper edges
   [[nodiscard]] Eigen::Vector2d size() const { return high - low; }
 };
+
+/// A box on the ground with its first two axes along a footprint's.
+/// \param plan low and high corner along these axes
+/// \param height above the ground, lower and upper end
+[[nodiscard]] objects::Cuboid upright(double direction, const std::array<Eigen::Vector2d, 2>& plan,
+                                      const std::array<double, 2>& height);
 
 /// The first axis is the longer side. At least three points that are not in a line are expected;
 /// of fewer the extents are what they are.

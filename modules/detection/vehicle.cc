@@ -49,6 +49,15 @@ double top_of(const std::vector<BodyPoint>& points, double percentile) {
   return core::percentile(heights, percentile / 100);
 }
 
+/// Over [centre, size] of an axis, by its edges alone. What the class's mean length errs by is the
+/// same in all windows of a vehicle: counted in each, many hidden ends would outvote a seen one.
+Eigen::Matrix2d of_centre_and_size(double low_sd, double high_sd) {
+  const double low = low_sd * low_sd, high = high_sd * high_sd;
+  Eigen::Matrix2d covariance;
+  covariance << 0.25 * (low + high), 0.5 * (high - low), 0.5 * (high - low), low + high;
+  return covariance;
+}
+
 SizePrior prior_of(int axis, const VehicleConfig& config) {
   return axis == 0 ? SizePrior{config.length_m, config.length_sd_m}
                    : SizePrior{config.width_m, config.width_sd_m};
@@ -68,10 +77,9 @@ double shortfall(double size, const SizePrior& prior) {
   return std::max(0.0, prior.mean - kNearlyAll * prior.sd - size);
 }
 
-Rectangle rectangle(const Footprint& footprint, double top,
-                    const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
+Rectangle rectangle(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
-  const auto sds = edge_sds(footprint, top, sensors, config.noise);
+  const auto sds = edge_sds(footprint, sight, config.noise);
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {
     const SizePrior prior = prior_of(k, config);
@@ -79,6 +87,7 @@ Rectangle rectangle(const Footprint& footprint, double top,
     const Edge low = {footprint.low[k], sds[k][0] + missing};
     const Edge high = {footprint.high[k], sds[k][1] + missing};
     result.axis[k] = fuse_edges(low, high, prior, seen_sd);
+    if (k == 0) result.axis[k].covariance = of_centre_and_size(low.sd, high.sd);
     const double variance = std::pow(prior.sd, 2) + std::pow(sds[k][0], 2) + std::pow(sds[k][1], 2);
     result.cost += std::pow(footprint.size()[k] - prior.mean, 2) / variance + std::log(variance);
   }
@@ -94,10 +103,9 @@ Footprint turned(const Footprint& f) {
 }
 
 /// The side that is longer need not be the length where one face alone was seen.
-Rectangle likelier(const Footprint& footprint, double top,
-                   const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
-  const Rectangle straight = rectangle(footprint, top, sensors, config);
-  const Rectangle across = rectangle(turned(footprint), top, sensors, config);
+Rectangle likelier(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
+  const Rectangle straight = rectangle(footprint, sight, config);
+  const Rectangle across = rectangle(turned(footprint), sight, config);
   return across.cost < straight.cost ? across : straight;
 }
 
@@ -163,10 +171,17 @@ VehicleStatus judge(const Footprint& footprint, double top, const VehicleConfig&
   return small ? VehicleStatus::too_small : VehicleStatus::fitted;
 }
 
+/// What a vehicle fills: its inner part, lower than its windows.
+objects::Cuboid inside(const Footprint& footprint, const GapConfig& gap) {
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(gap.inset_m);
+  return upright(footprint.direction, {footprint.low + margin, footprint.high - margin},
+                 {gap.lowest_m, gap.highest_m});
+}
+
 }  // namespace
 
-VehicleFit fit_vehicle(const std::vector<BodyPoint>& points,
-                       const std::vector<Eigen::Vector3d>& sensors, const VehicleConfig& config) {
+VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
+                       const VehicleConfig& config) {
   VehicleFit fit;
   if (static_cast<int>(points.size()) < config.least_points) return fit;
   fit.motion = motion_of(points, config);
@@ -175,7 +190,11 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points,
   const double top = top_of(points, config.top_percentile);
   fit.status = judge(footprint, top, config);
   if (fit.status != VehicleStatus::fitted) return fit;
-  const Rectangle best = likelier(footprint, top, sensors, config);
+  if (sight.through(inside(footprint, config.gap)) >= config.gap.beams) {
+    fit.status = VehicleStatus::parted;
+    return fit;
+  }
+  const Rectangle best = likelier(footprint, sight, config);
   fit.cuboid = cuboid_of(best, top);
   fit.covariance = covariance_of(best, config.noise);
   fit.front_log_odds = front_log_odds(points, fit.motion, best, config);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/config.h"
+#include "detection/beams.h"
 #include "detection/footprint.h"
 #include "detection/interval.h"
 #include "detection/motion.h"
@@ -12,22 +13,62 @@
 /// The virtual sensor of vehicles: a cluster's points to a cuboid with covariance.
 ///
 /// Reads points in the local ground's frame (z = 0 the ground), with the scan each came from, and
-/// where the scans were taken. Motion, footprint (footprint.h), then the edges: one whose face, or
-/// a face beside it, or the roof was looked at is measured; one that was not is only a bound, and
-/// the class's size says where it likely is, with a covariance that says so (interval.h). The
+/// what their beams went through. Motion, footprint (footprint.h), then the edges (edges.h): one
+/// beside which beams went on is measured; of one that was hidden the class's size says where it
+/// likely is, with a covariance that says so (interval.h). What beams go through in the middle is
+/// more than one vehicle. The
 /// lower end is the front (paper, III-A).
 namespace saker::detection {
+
+/// The space beside an edge through which beams show that the vehicle ends there.
+struct BeyondConfig {
+  double near_m = 0.15;
+  double far_m = 0.6;
+  double inset_m = 0.2;
+  double lowest_m = 0.25;
+  double highest_m = 0.75;
+  double beams = 3;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("near_m", near_m, {0, 2}, "m", "from the edge: beyond its noise");
+    v.field("far_m", far_m, {0.05, 5}, "m",
+            "from the edge: nearer than the next vehicle, wide enough for beams far away");
+    v.field("inset_m", inset_m, {0, 1}, "m",
+            "from the sides: what passes along a side tells nothing of the end");
+    v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: grass and kerbs");
+    v.field("highest_m", highest_m, {0.1, 3}, "m",
+            "above the ground: lower than hoods, over which beams pass");
+    v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
+  }
+};
+
+/// The space that a vehicle fills: what beams go through is more than one.
+struct GapConfig {
+  double inset_m = 0.35;
+  double lowest_m = 0.35;
+  double highest_m = 0.75;
+  int beams = 4;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("inset_m", inset_m, {0, 2}, "m",
+            "from the footprint's edges: rounded corners and a heading that is off");
+    v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: higher than beams pass below");
+    v.field("highest_m", highest_m, {0.1, 3}, "m", "above the ground: lower than windows");
+    v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
+  }
+};
 
 struct VehicleNoiseConfig {
   double edge_m = 0.08;
   double edge_per_m = 0.003;
   double unseen_m = 1.0;
-  double glancing_deg = 4;
-  double clear_deg = 12;
   double yaw_deg = 2;
   double tilt_deg = 2;
   double ground_m = 0.06;
   double top_m = 0.08;
+  BeyondConfig beyond;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -36,13 +77,11 @@ struct VehicleNoiseConfig {
             "more of it by range: half the spacing of beams");
     v.field("unseen_m", unseen_m, {0.1, 10}, "m",
             "standard deviation of an edge that was not seen");
-    v.field("glancing_deg", glancing_deg, {0, 90}, "deg",
-            "a face seen under a smaller angle is not seen");
-    v.field("clear_deg", clear_deg, {0, 90}, "deg", "a face seen under a larger angle is seen");
     v.field("yaw_deg", yaw_deg, {0.01, 90}, "deg", "of the heading, both sides well seen");
     v.field("tilt_deg", tilt_deg, {0.01, 90}, "deg", "of the local ground's normal");
     v.field("ground_m", ground_m, {0.001, 2}, "m", "of the local ground's height");
     v.field("top_m", top_m, {0.001, 2}, "m", "of the top");
+    v.group("beyond", beyond, "free space that shows an edge");
   }
 };
 
@@ -64,6 +103,7 @@ struct VehicleConfig {
   double most_front_log_odds = 3;
   FootprintConfig footprint;
   MotionConfig motion;
+  GapConfig gap;
   VehicleNoiseConfig noise;
 
   template <class Visitor>
@@ -89,6 +129,7 @@ struct VehicleConfig {
     v.field("most_front_log_odds", most_front_log_odds, {0, 20}, "", "of one measurement");
     v.group("footprint", footprint, "rectangle on the ground");
     v.group("motion", motion, "vehicles that move");
+    v.group("gap", gap, "free space within");
     v.group("noise", noise, "standard deviations of a measurement");
   }
 };
@@ -99,7 +140,8 @@ struct BodyPoint {
   float seconds = 0;
 };
 
-enum class VehicleStatus { fitted, too_few, too_small, too_large };
+/// `parted`: beams went through the middle of it, it is more than one thing.
+enum class VehicleStatus { fitted, too_few, too_small, too_large, parted };
 
 struct VehicleFit {
   VehicleStatus status = VehicleStatus::too_few;
@@ -109,9 +151,19 @@ struct VehicleFit {
   Motion motion;
 };
 
-/// \param sensors where the scans were taken, in the frame of the points
-[[nodiscard]] VehicleFit fit_vehicle(const std::vector<BodyPoint>& points,
-                                     const std::vector<Eigen::Vector3d>& sensors,
+/// From where a cluster was looked at.
+struct Sight {
+  std::vector<Eigen::Vector3d> sensors;  ///< where the scans were taken, in the frame of the points
+  const Beams& beams;
+  SE3 T_level_local;  ///< from the frame of the points to that of the beams
+
+  /// \param box in the frame of the points
+  [[nodiscard]] int through(const objects::Cuboid& box) const {
+    return beams.through(objects::transformed(T_level_local, box));
+  }
+};
+
+[[nodiscard]] VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
                                      const VehicleConfig& config);
 
 }  // namespace saker::detection

@@ -32,6 +32,11 @@ class Gatherer {
     const Eigen::Vector3f t = T_level_lidar.translation().cast<float>();
     const auto& points = *scan.points;
     const bool reflective = scan.reflectivity && scan.reflectivity->size() == points.size();
+    const auto index = static_cast<std::uint16_t>(window_.sensors.size() - 1);
+    for (std::size_t i = 0; i < points.size(); i += config_.beam_stride) {
+      if (!(points[i].squaredNorm() <= range_squared_)) continue;  // NaN too
+      window_.beams.push_back({R * points[i] + t, index});
+    }
     for (std::size_t i = 0; i < points.size(); ++i) {
       const objects::Shape shape = shapes_[scan.labels->classes[i]];
       const bool other = shape == objects::Shape::none, ground = shape == objects::Shape::plane;
@@ -44,8 +49,7 @@ class Gatherer {
       } else if (ground) {
         window_.ground.push_back(position);
       } else {
-        add_object(shape, {position, scan.labels->probability[i], scan.labels->classes[i],
-                           static_cast<std::uint16_t>(window_.sensors.size() - 1),
+        add_object(shape, {position, scan.labels->probability[i], scan.labels->classes[i], index,
                            reflective ? (*scan.reflectivity)[i] : NAN});
       }
     }
@@ -79,6 +83,7 @@ void gather(std::span<const LabelledScan> scans, const objects::ClassTable& tabl
   window.cylinders.clear();
   window.ground.clear();
   window.others.clear();
+  window.beams.clear();
   if (scans.empty() || !scans.back().T_odom_lidar.matrix().allFinite()) return;
   SE3 T_odom_level = SE3::Identity();
   T_odom_level.translation() = scans.back().T_odom_lidar.translation();

@@ -30,6 +30,7 @@ struct WindowConfig {
   double least_probability = 0.4;
   int ground_stride = 3;
   int other_stride = 3;
+  int beam_stride = 3;
   int most_points = 400000;
 
   template <class Visitor>
@@ -42,6 +43,8 @@ struct WindowConfig {
             "every which ground point is used: a plane needs few");
     v.field("other_stride", other_stride, {1, 100}, "points",
             "every which point of no object is used: what stands around trunks and poles");
+    v.field("beam_stride", beam_stride, {1, 100}, "points",
+            "every which beam is kept to tell what it went through");
     v.field("most_points", most_points, {1000, 10000000}, "points",
             "object points of one shape in a window; the rest is left out");
   }
@@ -56,6 +59,12 @@ struct ClassPoint {
   float reflectivity = NAN;  ///< 0 … 1; NaN where the scan has none
 };
 
+/// What a beam went through is free.
+struct Beam {
+  Eigen::Vector3f end;     ///< in the levelled frame
+  std::uint16_t scan = 0;  ///< index into Window::sensors
+};
+
 struct Window {
   SE3 T_lidar_level = SE3::Identity();   ///< from the levelled frame to the last scan's
   std::vector<Eigen::Vector3d> sensors;  ///< where each scan was taken, levelled frame
@@ -64,6 +73,7 @@ struct Window {
   std::vector<ClassPoint> cylinders;     ///< of classes that are cylinders
   std::vector<Eigen::Vector3f> ground;   ///< of classes that are planes
   std::vector<Eigen::Vector3f> others;   ///< of classes that are no object
+  std::vector<Beam> beams;               ///< of all classes
 };
 
 /// Fills `window` from the scans, keeping its memory. Scans without points, with labels of another

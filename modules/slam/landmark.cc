@@ -73,6 +73,21 @@ objects::Shape shape_of(const Model& model) {
   return is_cuboid(model) ? objects::Shape::cuboid : objects::Shape::cylinder;
 }
 
+/// What a window adds to what is known of the ends. What it says of the length as a whole is shared
+/// out between them as its covariance does; a window that takes a side for the length adds nothing.
+void see_ends(Landmark& landmark, const Gaussian& measured, double length_sd) {
+  const auto longer = [](const Model& model) {
+    const Eigen::Vector3d& size = std::get<Cuboid>(model).size;
+    return size.x() >= size.y() ? 0 : 1;
+  };
+  const int axis = longer(measured.model), centre = 3 + axis, size = 6 + axis;
+  if (axis != longer(landmark.model)) return;
+  const Eigen::MatrixXd& P = measured.covariance;
+  const double mean = P(centre, centre) + 0.25 * P(size, size), both = P(centre, size);
+  const Eigen::Vector2d sds = Eigen::Vector2d(mean - both, mean + both).cwiseMax(0).cwiseSqrt();
+  landmark.end_sds = landmark.end_sds.cwiseMin(length_sd / sds.norm() * sds);
+}
+
 }  // namespace
 
 std::vector<double> clamped_log(const std::vector<double>& probability, double least) {
@@ -130,7 +145,7 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn),
                       candidate.measurement->view_cell, 1, candidate.chain});
   if (is_cuboid(landmark.model)) {
-    landmark.length_sd = std::min(landmark.length_sd, length_sd(*candidate.measurement));
+    see_ends(landmark, turned_by(candidate.in_keyframe, turn), length_sd(*candidate.measurement));
   }
   raise(landmark.model, candidate.in_world);
   Model in_world = candidate.in_world;
@@ -164,7 +179,8 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
   landmark.last_stamp = std::max(landmark.last_stamp, other.last_stamp);
-  landmark.length_sd = std::min(landmark.length_sd, other.length_sd);
+  if (turn == 0) landmark.end_sds = landmark.end_sds.cwiseMin(other.end_sds);
+  if (turn == 2) landmark.end_sds = landmark.end_sds.cwiseMin(other.end_sds.reverse());
   landmark.nearest = std::min(landmark.nearest, other.nearest);
   landmark.farthest = std::max(landmark.farthest, other.farthest);
 }
@@ -219,7 +235,8 @@ bool believed(const Landmark& landmark, const LandmarkConfig& config) {
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
   if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
-  if (is_cuboid(landmark.model) && !(landmark.length_sd <= config.most_length_sd_m)) return false;
+  if (is_cuboid(landmark.model) && !(landmark.end_sds.norm() <= config.most_length_sd_m))
+    return false;
   return landmark.log_odds >= config.least_log_odds;
 }
 

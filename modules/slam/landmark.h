@@ -67,8 +67,8 @@ struct LandmarkConfig {
     v.field("sure_sd", sure_sd, {0, 10}, "",
             "standard deviations by which a part that was not seen may lie nearer");
     v.field("most_length_sd_m", most_length_sd_m, {0.01, 10}, "m",
-            "standard deviation of a cuboid's length in its best window, above which nobody has "
-            "seen how long it is: the class's mean with nothing behind it is no object yet");
+            "standard deviation of a cuboid's length by the windows that saw its ends best, above "
+            "which nobody has seen how long it is: the class's mean is no object yet");
     v.field("most", most, {1, 100000}, "",
             "objects kept; the one with the fewest observations goes first");
   }
@@ -121,7 +121,9 @@ struct Landmark {
       false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
   int still = 0;  ///< windows for which what moved has stood
   Time first_stamp = 0, last_stamp = 0;
-  double length_sd = std::numeric_limits<double>::infinity();  ///< in the best window, m; cuboids
+  Eigen::Vector2d end_sds = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  ///< of the low and the high end of the longer side, each in the window that saw it best, m;
+  ///< cuboids
   double nearest = std::numeric_limits<double>::infinity(),
          farthest = 0;  ///< distances at which it was measured, m
 };

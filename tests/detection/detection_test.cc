@@ -30,6 +30,7 @@ std::vector<LabelledScan> flight(double slope) {
     T.linear() = Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitY()).toRotationMatrix();
     SceneBuilder scene;
     scene.add_ground(slope, 30, rng);
+    scene.solids = {{.x = 9, .y = 4, .yaw = 0.5, .z = 9 * slope}};
     auto box = testing::visible_box({9, 4, 0.5}, T.translation(), 400, 0.02, rng);
     for (auto& p : box) p.z() += slope * p.x();
     scene.add(box, 1);
@@ -121,6 +122,7 @@ TEST(Detection, PointsOfNoObjectInsideAVehicleSpeakAgainstIt) {
   const std::vector<Eigen::Vector3d> box =
       visible_box({8, 0, 0.3}, Eigen::Vector3d(0, 0, 2), 2000, 0.02, rng);
   scene.add_ground(0, 20, rng);
+  scene.solids = {{8, 0, 0.3}};
   scene.add(box, 1);
   scene.add(visible_box({8, 0, 0.3, 4.2, 1.5}, Eigen::Vector3d(0, 0, 2), 2000, 0.02, rng), 0);
   Detection detection({}, {});

@@ -1,15 +1,41 @@
 #include "made_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace saker::detection::testing {
+namespace {
+
+constexpr std::uint8_t kGround = 4;  // its class
+
+SE3 pose_of(const MadeBox& box) {
+  SE3 T = SE3::Identity();
+  T.linear() = Eigen::AngleAxisd(box.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.translation() = Eigen::Vector3d(box.x, box.y, box.z + 0.5 * box.height);
+  return T;
+}
+
+Eigen::Vector3d half_of(const MadeBox& box) {
+  return 0.5 * Eigen::Vector3d(box.length, box.width, box.height);
+}
+
+}  // namespace
+
+bool hides(const MadeBox& box, const Eigen::Vector3d& sensor, const Eigen::Vector3d& point) {
+  constexpr int kSteps = 1000;
+  const SE3 T_box_world = pose_of(box).inverse();
+  const Eigen::Vector3d from = T_box_world * sensor, to = T_box_world * point;
+  for (int i = 1; i < kSteps; ++i) {
+    const Eigen::Vector3d at = from + (to - from) * i / kSteps;
+    if ((at.cwiseAbs() - half_of(box)).maxCoeff() < 0) return true;
+  }
+  return false;
+}
 
 std::vector<Eigen::Vector3d> visible_box(const MadeBox& box, const Eigen::Vector3d& sensor,
                                          int points, double noise, core::Rng& rng) {
-  SE3 T = SE3::Identity();
-  T.linear() = Eigen::AngleAxisd(box.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  T.translation() = Eigen::Vector3d(box.x, box.y, 0.5 * box.height);
-  const Eigen::Vector3d half(0.5 * box.length, 0.5 * box.width, 0.5 * box.height);
+  const SE3 T = pose_of(box);
+  const Eigen::Vector3d half = half_of(box);
   const Eigen::Vector3d from = T.inverse() * sensor;
   std::vector<Eigen::Vector3d> result;
   while (static_cast<int>(result.size()) < points) {
@@ -52,17 +78,21 @@ void SceneBuilder::add_ground(double slope, double half, core::Rng& rng) {
     const double x = rng.uniform(-half, half);
     ground.emplace_back(x, rng.uniform(-half, half), slope * x + rng.normal(0, 0.02));
   }
-  add(ground, 4);
+  add(ground, kGround);
 }
 
 LabelledScan SceneBuilder::scan(double seconds, const SE3& T_odom_lidar) const {
   auto cloud = std::make_shared<std::vector<Eigen::Vector3f>>();
   auto labels = std::make_shared<lidar::Labels>();
-  for (const Eigen::Vector3d& p : points) {
-    cloud->push_back((T_odom_lidar.inverse() * p).cast<float>());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto hidden = [&](const MadeBox& box) {
+      return hides(box, T_odom_lidar.translation(), points[i]);
+    };
+    if (classes[i] == kGround && std::ranges::any_of(solids, hidden)) continue;
+    cloud->push_back((T_odom_lidar.inverse() * points[i]).cast<float>());
+    labels->classes.push_back(classes[i]);
   }
-  labels->classes = classes;
-  labels->probability.assign(points.size(), 0.9f);
+  labels->probability.assign(cloud->size(), 0.9f);
   return {from_seconds(seconds), T_odom_lidar, cloud, labels};
 }
 

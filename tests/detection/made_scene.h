@@ -11,7 +11,11 @@ namespace saker::detection::testing {
 struct MadeBox {
   double x = 0, y = 0, yaw = 0;
   double length = 4.5, width = 1.8, height = 1.5;
+  double z = 0;  ///< of its bottom
 };
+
+/// Whether a box stands between a sensor and a point.
+bool hides(const MadeBox& box, const Eigen::Vector3d& sensor, const Eigen::Vector3d& point);
 
 /// Points on those sides of the box that a sensor sees, the roof too where it stands higher.
 std::vector<Eigen::Vector3d> visible_box(const MadeBox& box, const Eigen::Vector3d& sensor,
@@ -27,6 +31,7 @@ std::vector<Eigen::Vector3d> visible_cylinder(const Eigen::Vector3d& root,
 struct SceneBuilder {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::uint8_t> classes;
+  std::vector<MadeBox> solids;  ///< the ground behind them is not seen
 
   void add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id);
   /// A plane z = slope · x under the whole scene.

@@ -3,29 +3,67 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <iterator>
 
 #include "made_scene.h"
 
 namespace saker::detection {
 namespace {
 
+using testing::hides;
 using testing::MadeBox;
 using testing::visible_box;
 
-std::vector<BodyPoint> seen(const MadeBox& box, const Eigen::Vector3d& sensor, double speed = 0) {
-  core::Rng rng(5);
-  std::vector<BodyPoint> points;
-  for (int scan = 0; scan < 10; ++scan) {
-    const double seconds = 0.1 * (scan - 9);
-    MadeBox now = box;
-    now.x += speed * seconds * std::cos(box.yaw);
-    now.y += speed * seconds * std::sin(box.yaw);
-    for (const auto& p : visible_box(now, sensor, 300, 0.02, rng)) {
-      if (p.z() > 0.2) points.push_back({p.cast<float>(), static_cast<float>(seconds)});
-    }
+/// A box among others that hide it and the ground, by the beams of ten scans.
+struct Scene {
+  Eigen::Vector3d sensor;
+  MadeBox box;
+  std::vector<MadeBox> others = {};
+  double speed = 0;
+
+  [[nodiscard]] bool sees(const Eigen::Vector3d& point) const {
+    return std::ranges::none_of(others, [&](const MadeBox& o) { return hides(o, sensor, point); });
   }
-  return points;
-}
+
+  [[nodiscard]] std::vector<BodyPoint> points() const {
+    core::Rng rng(5);
+    std::vector<BodyPoint> points;
+    for (int scan = 0; scan < 10; ++scan) {
+      const double seconds = 0.1 * (scan - 9);
+      MadeBox now = box;
+      now.x += speed * seconds * std::cos(box.yaw);
+      now.y += speed * seconds * std::sin(box.yaw);
+      for (const auto& p : visible_box(now, sensor, 300, 0.02, rng)) {
+        if (p.z() > 0.2 && sees(p))
+          points.push_back({p.cast<float>(), static_cast<float>(seconds)});
+      }
+    }
+    return points;
+  }
+
+  [[nodiscard]] Beams beams() const {
+    core::Rng rng(6);
+    Window window;
+    window.sensors = {sensor};
+    for (int i = 0; i < 20000; ++i) {
+      const Eigen::Vector3d ground(rng.uniform(-10, 30), rng.uniform(-20, 20), 0);
+      if (sees(ground) && !hides(box, sensor, ground))
+        window.beams.push_back({ground.cast<float>()});
+    }
+    Beams beams;
+    beams.fill(window);
+    return beams;
+  }
+
+  [[nodiscard]] VehicleFit fit() const { return fitted_to(points()); }
+
+  [[nodiscard]] VehicleFit fitted_to(const std::vector<BodyPoint>& points) const {
+    return fit_vehicle(points, {{sensor}, beams(), SE3::Identity()}, {});
+  }
+};
+
+double length_sd(const VehicleFit& fit) { return std::sqrt(fit.covariance(6, 6)); }
 
 double turned(const objects::Cuboid& cuboid, double yaw) {
   return std::abs(std::remainder(core::yaw(cuboid.pose.linear()) - yaw, M_PI));
@@ -33,7 +71,7 @@ double turned(const objects::Cuboid& cuboid, double yaw) {
 
 TEST(Vehicle, IsMeasuredFromAnObliqueView) {
   for (const double yaw : {0.0, 0.4, 1.2, 2.3, -0.8}) {
-    const VehicleFit fit = fit_vehicle(seen({10, 2, yaw}, {0, 0, 4}), {{0, 0, 4}}, {});
+    const VehicleFit fit = Scene{{0, 0, 4}, {10, 2, yaw}}.fit();
     ASSERT_EQ(fit.status, VehicleStatus::fitted) << yaw;
     EXPECT_NEAR(fit.cuboid.size.x(), 4.5, 0.15) << yaw;
     EXPECT_NEAR(fit.cuboid.size.y(), 1.8, 0.15) << yaw;
@@ -44,27 +82,49 @@ TEST(Vehicle, IsMeasuredFromAnObliqueView) {
 }
 
 TEST(Vehicle, SeenFromBehindOnlyDoesNotClaimToKnowItsLength) {
-  const VehicleFit fit = fit_vehicle(seen({12, 0, 0}, {0, 0, 1.2}), {{0, 0, 1.2}}, {});
+  const VehicleFit fit = Scene{{0, 0, 1.2}, {12, 0, 0}}.fit();
   ASSERT_EQ(fit.status, VehicleStatus::fitted);
   EXPECT_LT(turned(fit.cuboid, 0), 0.05);
   EXPECT_NEAR(fit.cuboid.size.y(), 1.8, 0.15);
-  EXPECT_GT(std::sqrt(fit.covariance(6, 6)), 0.3);
-  EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * std::sqrt(fit.covariance(6, 6)));
+  EXPECT_GT(length_sd(fit), 0.3);
+  EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * length_sd(fit));
   EXPECT_LT(std::sqrt(fit.covariance(7, 7)), 0.2);
   EXPECT_LT(std::abs(fit.cuboid.pose.translation().x() - 12), 2 * std::sqrt(fit.covariance(3, 3)));
 }
 
+TEST(Vehicle, EndThatIsHiddenIsNotKnown) {
+  const Scene free{{0, 0, 2}, {12, 0, M_PI / 2}};
+  EXPECT_LT(length_sd(free.fit()), 0.2);
+  Scene cut = free;
+  cut.others = {{.x = 9, .y = 1.4, .yaw = M_PI / 2, .length = 2.4, .height = 2}};
+  const VehicleFit fit = cut.fit();
+  ASSERT_EQ(fit.status, VehicleStatus::fitted);
+  EXPECT_GT(length_sd(fit), 0.5);
+  EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * length_sd(fit));
+}
+
+TEST(Vehicle, ThatBeamsGoThroughIsMoreThanOne) {
+  const Scene first{{0, 0, 4}, {.x = 10, .y = 1.8, .yaw = M_PI / 2, .length = 2.8}};
+  const Scene second{{0, 0, 4}, {.x = 10, .y = -1.8, .yaw = M_PI / 2, .length = 2.8}};
+  Scene both = first;
+  both.others = {second.box};
+  std::vector<BodyPoint> points = first.points();
+  std::ranges::copy(second.points(), std::back_inserter(points));
+  EXPECT_EQ(both.fitted_to(points).status, VehicleStatus::parted);
+}
+
 TEST(Vehicle, ThatMovesIsToldFromOneThatIsParked) {
   for (const double speed : {4.0, 8.0, 12.0}) {
-    const VehicleFit fit = fit_vehicle(seen({12, 3, 0.3}, {0, 0, 2}, speed), {{0, 0, 2}}, {});
+    const VehicleFit fit = Scene{{0, 0, 2}, {12, 3, 0.3}, {}, speed}.fit();
     EXPECT_TRUE(fit.motion.moving) << speed;
     EXPECT_NEAR(fit.motion.velocity.norm(), speed, 0.8);
   }
-  EXPECT_FALSE(fit_vehicle(seen({12, 3, 0.3}, {0, 0, 2}), {{0, 0, 2}}, {}).motion.moving);
+  const Scene parked{{0, 0, 2}, {12, 3, 0.3}};
+  EXPECT_FALSE(parked.fit().motion.moving);
 }
 
 TEST(Vehicle, CovarianceIsSymmetricAndPositive) {
-  const VehicleFit fit = fit_vehicle(seen({12, 3, 0.3}, {0, 0, 2}), {{0, 0, 2}}, {});
+  const VehicleFit fit = Scene{{0, 0, 2}, {12, 3, 0.3}}.fit();
   EXPECT_LT((fit.covariance - fit.covariance.transpose()).norm(), 1e-12);
   EXPECT_GT(fit.covariance.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
 }

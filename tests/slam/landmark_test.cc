@@ -25,12 +25,10 @@ class Feed {
     measurement_.model = model;
     measurement_.front_log_odds = front;
     const Eigen::Index size = is_cuboid(model) ? 9 : 6;
-    measurement_.covariance = length_variance_ * Eigen::MatrixXd::Identity(size, size);
-    const Candidate candidate{&measurement_,
-                              {model, 0.01 * Eigen::MatrixXd::Identity(size, size)},
-                              model,
-                              10,
-                              id == 0 ? 0.2 : 0.95};
+    measurement_.covariance = 0.01 * Eigen::MatrixXd::Identity(size, size);
+    if (is_cuboid(model)) set_ends(measurement_.covariance);
+    const Candidate candidate{
+        &measurement_, {model, measurement_.covariance}, model, 10, id == 0 ? 0.2 : 0.95};
     if (landmark_.id < 0) {
       landmark_ = new_landmark(7, candidate, keyframe_++, kConfig);
     } else {
@@ -39,11 +37,19 @@ class Feed {
     return landmark_;
   }
 
-  void hide_an_end() { length_variance_ = 0.2; }
+  /// Standard deviations from now on.
+  void see_ends(double low, double high) { end_variances_ = {low * low, high * high}; }
 
  private:
+  void set_ends(Eigen::MatrixXd& covariance) const {
+    const double low = end_variances_[0], high = end_variances_[1];
+    covariance(3, 3) = 0.25 * (low + high);
+    covariance(3, 6) = covariance(6, 3) = 0.5 * (high - low);
+    covariance(6, 6) = low + high;
+  }
+
   objects::Measurement measurement_;
-  double length_variance_ = 0.01;
+  Eigen::Vector2d end_variances_{0.01, 0.01};
   Landmark landmark_;
   int keyframe_ = 0;
 };
@@ -132,12 +138,19 @@ TEST(Landmark, SomethingElseOfItsShapeIsNotBelieved) {
 
 TEST(Landmark, VehicleWhoseEndNobodyHasSeenIsNotBelievedUntilSomebodyHas) {
   Feed feed;
-  feed.hide_an_end();
+  feed.see_ends(0.1, 1);
   for (int i = 0; i < 9; ++i) feed(car(5, 0, 0), kVehicle);
   EXPECT_FALSE(believed(feed(car(5, 0, 0), kVehicle), kConfig));
-  Feed whole;
-  for (int i = 0; i < 9; ++i) whole(car(5, 0, 0), kVehicle);
-  EXPECT_TRUE(believed(whole(car(5, 0, 0), kVehicle), kConfig));
+  feed.see_ends(1, 0.1);
+  EXPECT_TRUE(believed(feed(car(5, 0, 0), kVehicle), kConfig));
+}
+
+TEST(Landmark, WindowFromTheOtherSideSeesTheSameEndWhicheverWayItNamesThem) {
+  Feed feed;
+  feed.see_ends(0.1, 1);
+  for (int i = 0; i < 9; ++i) feed(car(5, 0, 0), kVehicle);
+  feed.see_ends(1, 0.1);
+  EXPECT_FALSE(believed(feed(car(5, 0, kPi), kVehicle), kConfig));
 }
 
 TEST(Landmark, EarlyEvidenceOfAClassIsNotForgotten) {

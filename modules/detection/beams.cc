@@ -1,0 +1,76 @@
+#include "detection/beams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace saker::detection {
+namespace {
+
+constexpr int kBins = 360;  // of azimuth: a vehicle at 30 m is ten of them wide
+
+float azimuth_bins(const Eigen::Vector3f& direction) {
+  constexpr auto kPerRadian = static_cast<float>(kBins / (2 * M_PI));
+  return (std::atan2(direction.y(), direction.x()) + static_cast<float>(M_PI)) * kPerRadian;
+}
+
+/// The segment against the box |x| ≤ half, slab by slab (Kay and Kajiya, SIGGRAPH 1986).
+bool goes_through(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                  const Eigen::Vector3f& half) {
+  float enter = 0, leave = std::numeric_limits<float>::max();
+  for (int k = 0; k < 3; ++k) {
+    const float along = to[k] - from[k];
+    if (along == 0) {
+      if (std::abs(from[k]) > half[k]) return false;
+      continue;
+    }
+    const float a = (-half[k] - from[k]) / along, b = (half[k] - from[k]) / along;
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter < leave && leave <= 1;
+}
+
+}  // namespace
+
+std::size_t Beams::bin(const Beam& beam) const {
+  const int azimuth = static_cast<int>(azimuth_bins(beam.end - sensors_[beam.scan]));
+  return static_cast<std::size_t>(beam.scan) * kBins + std::clamp(azimuth, 0, kBins - 1);
+}
+
+void Beams::fill(const Window& window) {
+  sensors_.clear();
+  for (const Eigen::Vector3d& sensor : window.sensors) sensors_.push_back(sensor.cast<float>());
+  // A counting sort.
+  first_.assign(sensors_.size() * kBins + 1, 0);
+  for (const Beam& beam : window.beams) ++first_[bin(beam)];
+  std::size_t sum = 0;
+  for (std::size_t& first : first_) sum += first, first = sum;
+  ends_.resize(window.beams.size());
+  for (const Beam& beam : window.beams) ends_[--first_[bin(beam)]] = beam.end;
+}
+
+int Beams::through(const objects::Cuboid& box) const {
+  if (box.size.minCoeff() <= 0) return 0;
+  const Eigen::Isometry3f T_box_level = box.pose.inverse().cast<float>();
+  const Eigen::Vector3f half = 0.5f * box.size.cast<float>();
+  const Eigen::Vector3f centre = box.pose.translation().cast<float>();
+  int count = 0;
+  for (std::size_t scan = 0; scan < sensors_.size(); ++scan) {
+    const Eigen::Vector3f from = T_box_level * sensors_[scan];
+    const Eigen::Vector3f towards = centre - sensors_[scan];
+    const float sine = std::min(half.norm() / std::max(towards.head<2>().norm(), 1e-3f), 1.0f);
+    const float reach = std::asin(sine) * static_cast<float>(kBins / (2 * M_PI)) + 1;
+    const int middle = static_cast<int>(azimuth_bins(towards));
+    const int bins = std::min(static_cast<int>(reach), kBins / 2 - 1);
+    for (int b = middle - bins; b <= middle + bins; ++b) {
+      const std::size_t at = scan * kBins + (b + kBins) % kBins;
+      for (std::size_t i = first_[at]; i < first_[at + 1]; ++i) {
+        count += goes_through(from, T_box_level * ends_[i], half) ? 1 : 0;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace saker::detection

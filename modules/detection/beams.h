@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "detection/window.h"
+#include "objects/models.h"
+
+namespace saker::detection {
+
+/// What the beams of a window went through on their way: space that is free, the other half of
+/// what a scan tells (Elfes, "Using Occupancy Grids for Mobile Robot Perception and Navigation",
+/// Computer 1989). Keeps its memory between calls.
+class Beams {
+ public:
+  void fill(const Window& window);
+
+  /// \param box in the window's levelled frame; one with a negative size holds nothing
+  /// \return beams (of those that the window keeps) that entered it, left it and ended behind it.
+  [[nodiscard]] int through(const objects::Cuboid& box) const;
+
+ private:
+  [[nodiscard]] std::size_t bin(const Beam& beam) const;
+
+  std::vector<Eigen::Vector3f> sensors_;  ///< of each scan
+  std::vector<Eigen::Vector3f> ends_;     ///< by scan and azimuth
+  std::vector<std::size_t> first_;        ///< of each bin in `ends_`, and the end of the last
+};
+
+}  // namespace saker::detection
