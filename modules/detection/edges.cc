@@ -30,13 +30,9 @@ objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondC
   std::array<Eigen::Vector2d, 2> plan{footprint.low, footprint.high};
   plan[0][across] += inset;
   plan[1][across] -= inset;
-  if (end == 0) {
-    plan[0][k] = footprint.low[k] - config.far_m;
-    plan[1][k] = footprint.low[k] - config.near_m;
-  } else {
-    plan[0][k] = footprint.high[k] + config.near_m;
-    plan[1][k] = footprint.high[k] + config.far_m;
-  }
+  const double edge = plan[end][k], outward = end == 0 ? -1 : 1;
+  plan[end][k] = edge + outward * config.far_m;
+  plan[1 - end][k] = edge + outward * config.near_m;
   return upright(footprint.direction, plan, {config.lowest_m, config.highest_m});
 }
 

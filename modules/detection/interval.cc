@@ -6,6 +6,12 @@
 
 namespace saker::detection {
 
+Eigen::Matrix2d of_centre_and_size(const Eigen::Matrix2d& of_edges) {
+  Eigen::Matrix2d to_centre_size;
+  to_centre_size << 0.5, 0.5, -1, 1;
+  return to_centre_size * of_edges * to_centre_size.transpose();
+}
+
 Interval fuse_edges(const Edge& low, const Edge& high, const SizePrior& prior, double seen_sd) {
   Eigen::Matrix2d information =
       Eigen::Vector2d(std::pow(low.sd, -2), std::pow(high.sd, -2)).asDiagonal();
@@ -18,9 +24,7 @@ Interval fuse_edges(const Edge& low, const Edge& high, const SizePrior& prior, d
   }
   const Eigen::Matrix2d covariance = information.inverse();
   const Eigen::Vector2d edges = covariance * weighted;
-  Eigen::Matrix2d to_centre_size;
-  to_centre_size << 0.5, 0.5, -1, 1;
-  return {edges.x(), edges.y(), to_centre_size * covariance * to_centre_size.transpose()};
+  return {edges.x(), edges.y(), of_centre_and_size(covariance)};
 }
 
 }  // namespace saker::detection

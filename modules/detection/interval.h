@@ -26,6 +26,9 @@ struct Interval {
   [[nodiscard]] double size() const { return high - low; }
 };
 
+/// The covariance of [centre, size] by that of [low, high].
+[[nodiscard]] Eigen::Matrix2d of_centre_and_size(const Eigen::Matrix2d& of_edges);
+
 /// The two edges and the Gaussian prior of their distance, fused by least squares: an edge that
 /// was not seen moves until the size is likely, one that was seen stays. The prior counts only
 /// where an edge was not seen (sd above `seen_sd`).

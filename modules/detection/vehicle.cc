@@ -49,13 +49,8 @@ double top_of(const std::vector<BodyPoint>& points, double percentile) {
   return core::percentile(heights, percentile / 100);
 }
 
-/// Over [centre, size] of an axis, by its edges alone. What the class's mean length errs by is the
-/// same in all windows of a vehicle: counted in each, many hidden ends would outvote a seen one.
-Eigen::Matrix2d of_centre_and_size(double low_sd, double high_sd) {
-  const double low = low_sd * low_sd, high = high_sd * high_sd;
-  Eigen::Matrix2d covariance;
-  covariance << 0.25 * (low + high), 0.5 * (high - low), 0.5 * (high - low), low + high;
-  return covariance;
+Eigen::Matrix2d covariance_of(const Edge& low, const Edge& high) {
+  return Eigen::Vector2d(low.sd * low.sd, high.sd * high.sd).asDiagonal();
 }
 
 SizePrior prior_of(int axis, const VehicleConfig& config) {
@@ -87,7 +82,9 @@ Rectangle rectangle(const Footprint& footprint, const Sight& sight, const Vehicl
     const Edge low = {footprint.low[k], sds[k][0] + missing};
     const Edge high = {footprint.high[k], sds[k][1] + missing};
     result.axis[k] = fuse_edges(low, high, prior, seen_sd);
-    if (k == 0) result.axis[k].covariance = of_centre_and_size(low.sd, high.sd);
+    // What the class's mean length errs by is the same in all windows of a vehicle: counted in
+    // each, many hidden ends would outvote a seen one.
+    if (k == 0) result.axis[k].covariance = of_centre_and_size(covariance_of(low, high));
     const double variance = std::pow(prior.sd, 2) + std::pow(sds[k][0], 2) + std::pow(sds[k][1], 2);
     result.cost += std::pow(footprint.size()[k] - prior.mean, 2) / variance + std::log(variance);
   }

@@ -16,8 +16,7 @@
 /// what their beams went through. Motion, footprint (footprint.h), then the edges (edges.h): one
 /// beside which beams went on is measured; of one that was hidden the class's size says where it
 /// likely is, with a covariance that says so (interval.h). What beams go through in the middle is
-/// more than one vehicle. The
-/// lower end is the front (paper, III-A).
+/// more than one vehicle. The lower end is the front (paper, III-A).
 namespace saker::detection {
 
 /// The space beside an edge through which beams show that the vehicle ends there.

@@ -34,15 +34,14 @@ class Gatherer {
     const bool reflective = scan.reflectivity && scan.reflectivity->size() == points.size();
     const auto index = static_cast<std::uint16_t>(window_.sensors.size() - 1);
     for (std::size_t i = 0; i < points.size(); i += config_.beam_stride) {
-      if (!(points[i].squaredNorm() <= range_squared_)) continue;  // NaN too
-      window_.beams.push_back({R * points[i] + t, index});
+      if (in_range(points[i])) window_.beams.push_back({R * points[i] + t, index});
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
       const objects::Shape shape = shapes_[scan.labels->classes[i]];
       const bool other = shape == objects::Shape::none, ground = shape == objects::Shape::plane;
       if (other && ++others_seen_ % config_.other_stride != 0) continue;
       if (ground && ++ground_seen_ % config_.ground_stride != 0) continue;
-      if (!(points[i].squaredNorm() <= range_squared_)) continue;  // NaN too
+      if (!in_range(points[i])) continue;
       const Eigen::Vector3f position = R * points[i] + t;
       if (other) {
         if (window_.others.size() < most_) window_.others.push_back(position);
@@ -56,6 +55,11 @@ class Gatherer {
   }
 
  private:
+  /// False of what is not finite.
+  [[nodiscard]] bool in_range(const Eigen::Vector3f& point) const {
+    return point.squaredNorm() <= range_squared_;
+  }
+
   void add_object(objects::Shape shape, ClassPoint point) {
     if (!(point.probability >= config_.least_probability)) return;
     point.probability = std::min(point.probability, 1.0f);

@@ -97,7 +97,7 @@ void weigh_flights(std::vector<Landmark>& landmarks, Chains chains, const GraphC
     const auto last =
         std::find_if(first, votes.end(), [&](const Vote& v) { return v.of != first->of; });
     auto& vehicle = std::get<objects::Cuboid>(landmarks[first->of].model);
-    const int longer = vehicle.size.x() >= vehicle.size.y() ? 0 : 1;
+    const int longer = longer_axis(vehicle);
     std::vector<Span> spans;
     for (; first != last; ++first) {
       spans.push_back(span_of(std::get<objects::Cuboid>(first->landmark.model), vehicle, longer));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "slam/model_algebra.h"
+
 namespace saker::slam {
 namespace {
 
@@ -41,12 +43,9 @@ void set_axis(Matrix9d& matrix, int axis, const Eigen::Matrix2d& block) {
 
 HiddenEnds::HiddenEnds(const objects::Cuboid& measured, const Matrix9d& covariance,
                        const HiddenEndConfig& config)
-    : longer_(measured.size.x() >= measured.size.y() ? 0 : 1), most_m_(config.most_m) {
-  const int centre = 3 + longer_, size = 6 + longer_;
-  const double mean = covariance(centre, centre) + 0.25 * covariance(size, size);
-  const double both = covariance(centre, size);
-  scale_ = config.sds * Eigen::Vector2d(mean - both, mean + both).cwiseSqrt();
-}
+    : longer_(longer_axis(measured)),
+      most_m_(config.most_m),
+      scale_(config.sds * end_variances(covariance, longer_).cwiseSqrt()) {}
 
 HiddenEnds::Softened HiddenEnds::operator()(const Vector9d& error) const {
   Softened softened{error, Matrix9d::Identity(), Matrix9d::Identity()};

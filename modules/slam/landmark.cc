@@ -76,15 +76,9 @@ objects::Shape shape_of(const Model& model) {
 /// What a window adds to what is known of the ends. What it says of the length as a whole is shared
 /// out between them as its covariance does; a window that takes a side for the length adds nothing.
 void see_ends(Landmark& landmark, const Gaussian& measured, double length_sd) {
-  const auto longer = [](const Model& model) {
-    const Eigen::Vector3d& size = std::get<Cuboid>(model).size;
-    return size.x() >= size.y() ? 0 : 1;
-  };
-  const int axis = longer(measured.model), centre = 3 + axis, size = 6 + axis;
-  if (axis != longer(landmark.model)) return;
-  const Eigen::MatrixXd& P = measured.covariance;
-  const double mean = P(centre, centre) + 0.25 * P(size, size), both = P(centre, size);
-  const Eigen::Vector2d sds = Eigen::Vector2d(mean - both, mean + both).cwiseMax(0).cwiseSqrt();
+  const int axis = longer_axis(std::get<Cuboid>(measured.model));
+  if (axis != longer_axis(std::get<Cuboid>(landmark.model))) return;
+  const Eigen::Vector2d sds = end_variances(measured.covariance, axis).cwiseSqrt();
   landmark.end_sds = landmark.end_sds.cwiseMin(length_sd / sds.norm() * sds);
 }
 
@@ -111,8 +105,7 @@ void join(Observation& a, const Observation& b) {
 
 double length_sd(const objects::Measurement& measured) {
   if (std::isfinite(measured.length_sd)) return measured.length_sd;
-  const auto& size = std::get<Cuboid>(measured.model).size;
-  const int longer = size.x() >= size.y() ? 0 : 1;
+  const int longer = longer_axis(std::get<Cuboid>(measured.model));
   return std::sqrt(measured.covariance(6 + longer, 6 + longer));
 }
 
@@ -142,10 +135,10 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
   fuse_front(landmark, turned(Eigen::Vector2d(front, 0), turn));
   fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
   landmark.log_odds += evidence(candidate.shape_probability, config);
-  remember(landmark, {keyframe, turned_by(candidate.in_keyframe, turn),
-                      candidate.measurement->view_cell, 1, candidate.chain});
+  const Gaussian in_keyframe = turned_by(candidate.in_keyframe, turn);
+  remember(landmark, {keyframe, in_keyframe, candidate.measurement->view_cell, 1, candidate.chain});
   if (is_cuboid(landmark.model)) {
-    see_ends(landmark, turned_by(candidate.in_keyframe, turn), length_sd(*candidate.measurement));
+    see_ends(landmark, in_keyframe, length_sd(*candidate.measurement));
   }
   raise(landmark.model, candidate.in_world);
   Model in_world = candidate.in_world;

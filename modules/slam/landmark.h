@@ -121,9 +121,8 @@ struct Landmark {
       false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
   int still = 0;  ///< windows for which what moved has stood
   Time first_stamp = 0, last_stamp = 0;
+  /// Of the low and the high end of a cuboid's longer side, each in the window that saw it best, m.
   Eigen::Vector2d end_sds = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-  ///< of the low and the high end of the longer side, each in the window that saw it best, m;
-  ///< cuboids
   double nearest = std::numeric_limits<double>::infinity(),
          farthest = 0;  ///< distances at which it was measured, m
 };

@@ -36,8 +36,8 @@ struct MergeConfig {
             "robust weight below which one flight's measurements of an object speak of another "
             "object");
     v.field("near_m", near_m, {1, 200}, "m",
-            "a flight's windows of a vehicle that tell its length: from farther away detection "
-            "loses an end and says that it is sure");
+            "a flight's windows of a vehicle that tell its length; set when detection lost ends "
+            "from farther away and said that it was sure");
     v.field("shorter_flight", shorter_flight, {0.001, 1}, "",
             "weight of the squared error of a flight that measured a vehicle shorter than it is: "
             "an end that was hidden from all its windows");

@@ -166,6 +166,15 @@ double elongation(const Cuboid& cuboid) {
   return longer / shorter;
 }
 
+int longer_axis(const Cuboid& cuboid) { return cuboid.size.x() >= cuboid.size.y() ? 0 : 1; }
+
+Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covariance, int axis) {
+  const int centre = 3 + axis, size = 6 + axis;
+  const double mean = covariance(centre, centre) + 0.25 * covariance(size, size);
+  const double both = covariance(centre, size);
+  return Eigen::Vector2d(mean - both, mean + both).cwiseMax(0);
+}
+
 bool on_footprint(const Cuboid& cuboid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = cuboid.pose.inverse() * p;
   return 2 * std::abs(q.x()) <= cuboid.size.x() && 2 * std::abs(q.y()) <= cuboid.size.y();

@@ -103,6 +103,15 @@ TEST(ModelAlgebra, FrontEvidenceTurnsWithTheFrame) {
   }
 }
 
+TEST(ModelAlgebra, EndVariancesAreThoseOfCentreLessAndPlusHalfTheSize) {
+  Matrix9d covariance = Matrix9d::Identity();
+  const double low = 0.04, high = 0.25;  // independent ends along y
+  covariance(4, 4) = 0.25 * (low + high);
+  covariance(4, 7) = covariance(7, 4) = 0.5 * (high - low);
+  covariance(7, 7) = low + high;
+  EXPECT_TRUE(end_variances(covariance, 1).isApprox(Eigen::Vector2d(low, high)));
+}
+
 TEST(ModelAlgebra, FusionIsTheInformationWeightedMean) {
   const Matrix9d covariance = 0.04 * Matrix9d::Identity();
   const Model b = moved(car(0), 1e-3 * cuboid_step());
