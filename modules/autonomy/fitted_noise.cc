@@ -5,6 +5,8 @@
 
 #include "core/config_folder.h"
 #include "core/error.h"
+#include "objects/stated_length.h"
+#include "objects/view_cell.h"
 #include "uncertainty/view.h"
 
 namespace saker::autonomy {
@@ -46,8 +48,7 @@ Eigen::Matrix3d sight_frame(const Eigen::Vector3d& place) {
 void correct(Measurement& m, objects::Cuboid cuboid, const uncertainty::Prediction& fitted,
              const Eigen::Matrix3d&) {
   const Eigen::VectorXd& bias = fitted.bias;
-  const int longer = cuboid.size.x() >= cuboid.size.y() ? 6 : 7;
-  m.length_sd = std::sqrt(m.covariance(longer, longer));
+  m.length_sd = objects::length_sd(m);
   cuboid.pose.translation() -= cuboid.pose.linear() * Eigen::Vector3d(bias[0], bias[1], 0);
   cuboid.size.head<2>() -= bias.tail<2>();
   m.covariance = with_planar(m.covariance, objects::planar_rows(m.model), fitted.covariance);
@@ -65,12 +66,13 @@ void correct(Measurement& m, objects::Cylinder cylinder, const uncertainty::Pred
   m.model = cylinder;
 }
 
-/// Flown, made for this shape, and something is left of the object without the bias.
-bool fits(const uncertainty::Prediction& fitted, const objects::Model& model) {
+/// Flown, seen from end to end, and something is left of the object without the bias.
+bool fits(const uncertainty::Prediction& fitted, const Measurement& m, double whole_length_sd_m) {
   if (fitted.extrapolated) return false;
-  const auto* cuboid = std::get_if<objects::Cuboid>(&model);
-  if (cuboid == nullptr) return fitted.bias.size() == 2;
-  return fitted.bias.size() == 4 && (cuboid->size.head<2>() - fitted.bias.tail<2>()).minCoeff() > 0;
+  const auto* cuboid = std::get_if<objects::Cuboid>(&m.model);
+  if (cuboid == nullptr) return true;
+  return objects::length_sd(m) <= whole_length_sd_m &&
+         (cuboid->size.head<2>() - fitted.bias.tail<2>()).minCoeff() > 0;
 }
 
 void apply(const uncertainty::Model& model, const Eigen::Matrix3d& R_odom_lidar, Measurement& m) {
@@ -79,14 +81,19 @@ void apply(const uncertainty::Model& model, const Eigen::Matrix3d& R_odom_lidar,
   name_by_front(named);
   SE3 T_levelled_lidar = SE3::Identity();
   T_levelled_lidar.linear() = R_odom_lidar;
-  const uncertainty::View view = uncertainty::view_of(
+  uncertainty::View view = uncertainty::view_of(
       Eigen::Vector3d::Zero(), objects::transformed(T_levelled_lidar, named.model));
+  view.reflectivity = m.reflectivity;
   if (!(view.range > 0) || !std::isfinite(view.angle)) return;
   const uncertainty::Prediction fitted = model.predict(m.class_id, view);
-  if (!fits(fitted, named.model)) return;
+  if (fitted.bias.size() != static_cast<Eigen::Index>(objects::planar_rows(m.model).size())) return;
+  if (!fits(fitted, named, model.of(m.class_id).geometric.parts().whole_length_sd_m)) {
+    m.view_cell = objects::uncorrected_cell(fitted.cell);
+    return;
+  }
   std::visit([&](const auto& shape) { correct(named, shape, fitted, R_odom_lidar); },
              objects::Model(named.model));
-  named.view_cell = fitted.cell;
+  named.view_cell = objects::corrected_cell(fitted.cell);
   m = std::move(named);
 }
 

@@ -27,8 +27,10 @@ struct UncertaintyConfig {
 
 /// What flights taught about measurements, between detection and SLAM: the fitted bias is taken off
 /// each one and its covariance of [x, y, length, width] (cuboid) or of the root's x and y
-/// (cylinder) is the fitted one; the rest, and measurements of a class or from a view that was not
-/// flown, stay as detection says.
+/// (cylinder) is the fitted one. The rest stays as detection says, and so do measurements from a
+/// view that was not flown and cuboids that were not seen from end to end: which end is hidden
+/// varies with what stands around. All from one cell count once, those that were left as they are
+/// beside the others. A class that the model does not know is left alone.
 ///
 /// On the way out, the map's covariances get what all measurements of an object share.
 ///

@@ -18,8 +18,8 @@ struct Measurement {
                                ///< 6×6 [root, axis in its tangent plane, radius] in the lidar frame
   double front_log_odds = 0;  ///< > 0: the model's x axis points to the front (cuboids)
   int points = 0;             ///< that the model was fitted to
-  int view_cell = -1;         ///< interval of range and angle in which the error is shared: all
-                              ///< windows from one together count once; −1: counts by itself
+  int view_cell = -1;         ///< of an interval of range and angle (view_cell.h), all of whose
+                              ///< windows share their error and count once; −1: counts by itself
   double reflectivity = NAN;  ///< mean of those points', 0 … 1; NaN: the scans have none
   double length_sd = NAN;     ///< m, of a cuboid's longer edge by its own points, where
                               ///< `covariance` is a fitted one: whether both its ends were seen

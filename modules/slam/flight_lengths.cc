@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "objects/stated_length.h"
+
 namespace saker::slam {
 namespace {
 

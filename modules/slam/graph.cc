@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 
+#include "objects/view_cell.h"
 #include "slam/factors.h"
 
 namespace saker::slam {
@@ -59,9 +60,9 @@ std::size_t held(const Chain& chain) {
   return std::max<std::size_t>(chain.free_from, chain.prior ? 0 : 1);
 }
 
-/// Of a cell, what a hidden end takes from the length is in its bias already.
+/// What is taken for corrected shows both its ends.
 const HiddenEndConfig& hidden_ends_of(const Observation& observation, const GraphConfig& config) {
-  return observation.cell < 0 ? config.hidden_ends : kNothingHidden;
+  return objects::is_corrected(observation.cell) ? kNothingHidden : config.hidden_ends;
 }
 
 /// Poses and landmarks as a Ceres problem. All parameters lie in one array in the order of

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "objects/stated_length.h"
 #include "slam/model_algebra.h"
 
 namespace saker::slam {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "objects/stated_length.h"
+
 namespace saker::slam {
 namespace {
 

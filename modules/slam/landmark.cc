@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "objects/stated_length.h"
+
 namespace saker::slam {
 namespace {
 
@@ -101,12 +103,6 @@ void join(Observation& a, const Observation& b) {
     a.measured.covariance *= windows;
   }
   a.windows = windows;
-}
-
-double length_sd(const objects::Measurement& measured) {
-  if (std::isfinite(measured.length_sd)) return measured.length_sd;
-  const int longer = longer_axis(std::get<Cuboid>(measured.model));
-  return std::sqrt(measured.covariance(6 + longer, 6 + longer));
 }
 
 int turn_between(const Model& model, const Model& reference, const LandmarkConfig& config) {

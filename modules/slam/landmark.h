@@ -150,10 +150,6 @@ void join(Observation& a, const Observation& b);
 [[nodiscard]] int turn_between(const Model& model, const Model& reference,
                                const LandmarkConfig& config);
 
-/// What a measurement says of the longer edge of its cuboid, m: the length, whichever way it was
-/// named.
-[[nodiscard]] double length_sd(const objects::Measurement& measured);
-
 /// The logarithms of probabilities, none of them below `least` or above 1 − least, and back.
 [[nodiscard]] std::vector<double> clamped_log(const std::vector<double>& probability, double least);
 [[nodiscard]] std::vector<double> normalised(const std::vector<double>& log_probability);

@@ -166,8 +166,6 @@ double elongation(const Cuboid& cuboid) {
   return longer / shorter;
 }
 
-int longer_axis(const Cuboid& cuboid) { return cuboid.size.x() >= cuboid.size.y() ? 0 : 1; }
-
 Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covariance, int axis) {
   const int centre = 3 + axis, size = 6 + axis;
   const double mean = covariance(centre, centre) + 0.25 * covariance(size, size);

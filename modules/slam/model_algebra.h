@@ -43,9 +43,6 @@ struct Gaussian {
 /// Longer horizontal edge over the shorter one.
 [[nodiscard]] double elongation(const objects::Cuboid& cuboid);
 
-/// The axis of the longer horizontal edge, 0: x, 1: y.
-[[nodiscard]] int longer_axis(const objects::Cuboid& cuboid);
-
 /// Variances of where the low and the high end along a horizontal axis are, m².
 /// \param covariance of [rotation, translation, size] in the cuboid's own frame
 [[nodiscard]] Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covariance,

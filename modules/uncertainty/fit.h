@@ -9,6 +9,9 @@
 
 /// From measurements beside the truth to models: the paper, "Uncertainty modeling".
 ///
+/// Errors are those of measurements that showed an object from end to end: of the others detection
+/// says itself which end is hidden. How often that is so from where is fitted beside them.
+///
 /// Confidence: a perceptron where it predicts held-out recordings better than a constant.
 /// Errors: what is measured of one object from one cell is averaged to one draw; bias, covariance
 /// and what an object's draws share are estimated together (random_effects.h). Elevation and
@@ -18,7 +21,7 @@ namespace saker::uncertainty {
 struct FitConfig {
   std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
-  double whole_m = 0.4;
+  double whole_length_sd_m = 0.25;
   int least_objects = 10;
   int least_draws = 5;
   int folds = 5;
@@ -31,9 +34,9 @@ struct FitConfig {
     v.field("range_edges_m", range_edges_m, {0, 1000}, "m", "of the intervals of range, ascending");
     v.field("sectors", sectors, {2, 36}, "",
             "of the viewing angle between front and back, for cuboids: 30 degrees each");
-    v.field("whole_m", whole_m, {0, 100}, "m",
-            "a cuboid whose length is off by more is a part of an object or more than one: left "
-            "out, for SLAM's error has tails for those");
+    v.field("whole_length_sd_m", whole_length_sd_m, {0, 100}, "m",
+            "a cuboid whose measurement states a worse length did not show both its ends, which "
+            "detection gives 0.1 m, or 0.4 m and more");
     v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
     v.field("least_draws", least_draws, {1, 100000}, "",
             "of objects in an interval, below it counts as not flown");

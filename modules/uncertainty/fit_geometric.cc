@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "core/statistics.h"
@@ -50,11 +51,12 @@ View mean_view(const std::vector<const Sample*>& samples) {
   return {range.mean(), angle.mean(), elevation.mean(), reflectivity.mean()};
 }
 
-/// One draw for each object and cell, in the order of recordings, objects and cells.
-std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals& intervals) {
+/// One draw for each object and cell, in the order of recordings, objects and cells; whole ones.
+std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals& intervals,
+                               double whole_length_sd_m) {
   std::map<std::tuple<std::string, int, int>, std::vector<const Sample*>> grouped;
   for (const Sample& sample : samples) {
-    if (!intervals.contains(sample.view.range)) continue;
+    if (!intervals.contains(sample.view.range) || !is_whole(sample, whole_length_sd_m)) continue;
     grouped[{sample.recording, sample.object_id, intervals.cell_of(sample.view)}].push_back(
         &sample);
   }
@@ -226,6 +228,35 @@ Parts fit_parts(std::span<const SeenDraw> seen, const Intervals& intervals,
   return parts;
 }
 
+/// Of an object's measurements from each interval those that are whole, the mean over objects; the
+/// class's mean share counts as it does in biases.
+void share_out(Parts& parts, std::span<const Sample> samples, const RandomEffectsConfig& config) {
+  struct Count {
+    double whole = 0, all = 0;
+    [[nodiscard]] double share() const { return all > 0 ? whole / all : 1; }
+  };
+  std::map<std::tuple<int, std::string, int>, Count> of_object;
+  for (const Sample& sample : samples) {
+    if (!parts.intervals.contains(sample.view.range)) continue;
+    Count& count = of_object[{parts.intervals.of(sample.view), sample.recording, sample.object_id}];
+    count.all += 1;
+    count.whole += is_whole(sample, parts.whole_length_sd_m) ? 1 : 0;
+  }
+  std::vector<Count> of_interval(parts.fitted.size());
+  Count of_class;
+  for (const auto& [key, count] : of_object) {
+    for (Count* sum : {&of_interval[static_cast<std::size_t>(std::get<0>(key))], &of_class}) {
+      sum->whole += count.share();
+      sum->all += 1;
+    }
+  }
+  for (std::size_t i = 0; i < parts.fitted.size(); ++i) {
+    of_interval[i].whole += config.bias_prior_draws * of_class.share();
+    of_interval[i].all += config.bias_prior_draws;
+    parts.fitted[i].whole = of_interval[i].share();
+  }
+}
+
 double log_likelihood(const SeenDraw& seen, const GeometricModel& model) {
   const GeometricModel::Expected expected = model.expected(seen.view);
   const Eigen::LLT<Eigen::MatrixXd> factor(expected.covariance + model.parts().common);
@@ -261,10 +292,11 @@ HeldOut scores(const std::vector<SeenDraw>& draws, const Intervals& intervals,
 
 GeometricModel fit_geometric(std::span<const Sample> samples, const Intervals& intervals,
                              const FitConfig& config, std::vector<Trial>& trials) {
-  const std::vector<SeenDraw> draws = draws_of(samples, intervals);
+  const std::vector<SeenDraw> draws = draws_of(samples, intervals, config.whole_length_sd_m);
   if (draws.empty()) {
-    throw Error(fmt::format("samples: none from {} ... {} m, the intervals of the fit",
-                            intervals.range_edges.front(), intervals.range_edges.back()));
+    throw Error(
+        fmt::format("samples: none that is whole from {} ... {} m, the intervals of the fit",
+                    intervals.range_edges.front(), intervals.range_edges.back()));
   }
   std::vector<Covariate> kept;
   HeldOut best = scores(draws, intervals, kept, config);
@@ -279,7 +311,10 @@ GeometricModel fit_geometric(std::span<const Sample> samples, const Intervals& i
     kept = more;
     best = with;
   }
-  return GeometricModel(fit_parts(draws, intervals, kept, config));
+  Parts parts = fit_parts(draws, intervals, kept, config);
+  parts.whole_length_sd_m = config.whole_length_sd_m;
+  share_out(parts, samples, config.errors);
+  return GeometricModel(std::move(parts));
 }
 
 }  // namespace saker::uncertainty

@@ -1,11 +1,14 @@
 #include "uncertainty/geometric.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace saker::uncertainty {
 namespace {
+
+constexpr double kLeastWhole = 0.01;  // a spline may overshoot
 
 /// Lower triangle of the Cholesky factor by rows, its diagonal as logarithm: any values of it are a
 /// positive definite matrix.
@@ -31,17 +34,17 @@ Eigen::MatrixXd from_log_cholesky(const Eigen::VectorXd& packed, Eigen::Index n)
   return factor * factor.transpose();
 }
 
-/// Bias, log-Cholesky factor, means of the covariates.
+/// Bias, log-Cholesky factor, share of whole measurements, means of the covariates.
 Eigen::VectorXd packed(const GeometricModel::Interval& interval) {
   const Eigen::VectorXd factor = log_cholesky(interval.covariance);
-  Eigen::VectorXd all(interval.bias.size() + factor.size() + interval.covariate_mean.size());
-  all << interval.bias, factor, interval.covariate_mean;
+  Eigen::VectorXd all(interval.bias.size() + factor.size() + 1 + interval.covariate_mean.size());
+  all << interval.bias, factor, interval.whole, interval.covariate_mean;
   return all;
 }
 
 Eigen::VectorXd packed_parity(const Eigen::VectorXd& parity, Eigen::Index covariates) {
   const Eigen::Index n = parity.size();
-  Eigen::VectorXd all = Eigen::VectorXd::Ones(n + n * (n + 1) / 2 + covariates);
+  Eigen::VectorXd all = Eigen::VectorXd::Ones(n + n * (n + 1) / 2 + 1 + covariates);
   all.head(n) = parity;
   for (Eigen::Index i = 0, at = n; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) all[at++] = parity[i] * parity[j];
@@ -77,10 +80,11 @@ GeometricModel::Expected GeometricModel::expected(const View& view) const {
   const Eigen::Index n = parts_.common.rows(), triangle = n * (n + 1) / 2;
   const Eigen::VectorXd values = surface_.at(view.range, std::abs(view.angle));
   const Eigen::VectorXd parity = mirror(n, parts_.intervals.sectors);
-  Expected expected{values.head(n), from_log_cholesky(values.segment(n, triangle), n), false};
+  Expected expected{values.head(n), from_log_cholesky(values.segment(n, triangle), n),
+                    std::clamp(values[n + triangle], kLeastWhole, 1.0), false};
   for (std::size_t i = 0; i < parts_.slopes.size(); ++i) {
     const Slope& slope = parts_.slopes[i];
-    const double mean = values[n + triangle + static_cast<Eigen::Index>(i)];
+    const double mean = values[n + triangle + 1 + static_cast<Eigen::Index>(i)];
     const double z = standardised(value_of(view, slope.covariate), mean, slope.spread);
     expected.bias += z * slope.bias.cwiseProduct(reach_of_slope(parity, view.angle));
     expected.covariance *= std::exp(slope.log_scale * z);

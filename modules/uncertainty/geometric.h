@@ -10,7 +10,7 @@ namespace saker::uncertainty {
 
 /// f^g of the paper: bias and covariance of an object's measured model by where it is seen from,
 /// splined over intervals of range and |angle|. Errors are those of Sample::error, as if seen from
-/// the left.
+/// the left, of measurements that showed the object from end to end.
 class GeometricModel {
  public:
   /// What was fitted to the measurements of one interval.
@@ -18,7 +18,8 @@ class GeometricModel {
     Eigen::VectorXd bias;
     Eigen::MatrixXd covariance;      ///< of the mean of one object's measurements, about the bias
     Eigen::VectorXd covariate_mean;  ///< one a covariate
-    int objects = 0;  ///< draws: objects, each side its own; 0: the values are the nearest one's
+    double whole = 1;  ///< share of an object's measurements that show it from end to end
+    int objects = 0;   ///< draws: objects, each side its own; 0: the values are the nearest one's
   };
 
   /// How a further input moves bias and covariance, a standard deviation of it.
@@ -34,11 +35,13 @@ class GeometricModel {
     std::vector<Interval> fitted;  ///< one an interval
     Eigen::MatrixXd common;        ///< what all views of one object share, in the object's frame
     std::vector<Slope> slopes;
+    double whole_length_sd_m = 0;  ///< that a cuboid's measurement may state of its length
   };
 
   struct Expected {
     Eigen::VectorXd bias;
     Eigen::MatrixXd covariance;
+    double whole = 1;
     bool extrapolated = false;
   };
 
@@ -51,7 +54,7 @@ class GeometricModel {
 
  private:
   Parts parts_;
-  SplineSurface surface_;  ///< of bias, logarithmic Cholesky factor and the covariates' means
+  SplineSurface surface_;  ///< of bias, logarithmic Cholesky factor, share and covariates' means
 };
 
 /// Sign of each entry of an error under the mirror that takes right to left: −1 for y of cuboids.

@@ -77,13 +77,15 @@ struct SlopeDocument {
 
 struct IntervalDocument {
   int objects = 0;
+  double whole = 1;
   std::vector<double> bias, covariance, covariate_mean;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("objects", objects, {0, 1e9}, "",
             "seen from here, each side for itself; 0: not flown, the nearest interval's values");
-    v.field("bias", bias, "m", "measured - true");
+    v.field("whole", whole, {0, 1}, "", "share of measurements that show the object end to end");
+    v.field("bias", bias, "m", "measured - true, of those");
     v.field("covariance", covariance, "m^2", "of the mean of one object's measurements from here");
     v.field("covariate_mean", covariate_mean, "rad or the sensor's", "one a slope");
   }
@@ -92,6 +94,7 @@ struct IntervalDocument {
 struct ErrorsDocument {
   std::vector<double> range_edges;
   int sectors = 0;
+  double whole_length_sd = 0;
   std::vector<double> common;
   std::vector<SlopeDocument> slopes;
   std::vector<IntervalDocument> intervals;
@@ -100,6 +103,8 @@ struct ErrorsDocument {
   void visit(Visitor& v) {
     v.field("range_edges", range_edges, {0, 1000}, "m", "of the intervals");
     v.field("sectors", sectors, {1, 360}, "", "of the folded angle from front to back");
+    v.field("whole_length_sd", whole_length_sd, {0, 1000}, "m",
+            "that a cuboid's measurement states of its length where it shows it end to end");
     v.field("common", common, "m^2", "covariance of what all measurements of one object share");
     v.list("slopes", slopes, "of further inputs");
     v.list("intervals", intervals, "the sectors of the nearest range, then of the next");

@@ -16,7 +16,7 @@
 namespace saker::uncertainty {
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr std::string_view kOpening =
     "# What a measurement is worth by where the object is seen from, fitted to flights by\n"
     "# `saker characterise fit`. The checksum is of all that follows its line: any change is "
@@ -47,14 +47,18 @@ ConfidenceDocument document_of(const SemanticModel& model) {
 
 ErrorsDocument document_of(const GeometricModel& model) {
   const GeometricModel::Parts& parts = model.parts();
-  ErrorsDocument document{
-      parts.intervals.range_edges, parts.intervals.sectors, list_of(parts.common), {}, {}};
+  ErrorsDocument document{parts.intervals.range_edges,
+                          parts.intervals.sectors,
+                          parts.whole_length_sd_m,
+                          list_of(parts.common),
+                          {},
+                          {}};
   for (const auto& slope : parts.slopes) {
     document.slopes.push_back(
         {slope.covariate, slope.spread, list_of(slope.bias), slope.log_scale});
   }
   for (const auto& interval : parts.fitted) {
-    document.intervals.push_back({interval.objects, list_of(interval.bias),
+    document.intervals.push_back({interval.objects, interval.whole, list_of(interval.bias),
                                   list_of(interval.covariance), list_of(interval.covariate_mean)});
   }
   return document;
@@ -158,6 +162,7 @@ GeometricModel geometric_of(const ErrorsDocument& document, bool cuboid, const P
   const Eigen::Index n = cuboid ? 4 : 2;
   GeometricModel::Parts parts;
   parts.intervals = intervals_of(document, cuboid, place);
+  parts.whole_length_sd_m = place.in(".whole_length_sd").number(document.whole_length_sd, cuboid);
   parts.common = place.in(".common").covariance(document.common, n);
   for (const SlopeDocument& slope : document.slopes) {
     const Place inside = place.in(".slopes");
@@ -175,7 +180,7 @@ GeometricModel geometric_of(const ErrorsDocument& document, bool cuboid, const P
     parts.fitted.push_back({inside.in(".bias").matrix(interval.bias, n, 1),
                             inside.in(".covariance").covariance(interval.covariance, n),
                             inside.in(".covariate_mean").matrix(interval.covariate_mean, slopes, 1),
-                            interval.objects});
+                            inside.in(".whole").number(interval.whole), interval.objects});
   }
   return GeometricModel(std::move(parts));
 }

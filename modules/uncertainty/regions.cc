@@ -76,7 +76,7 @@ double Regions::small_error_probability(const Prediction& prediction) const {
     const auto sizes = errors.col(i).tail(errors.rows() - 2).array().abs();
     if (place && (sizes < config_.size_error_m).all()) ++small;
   }
-  return static_cast<double>(small) / kDraws;
+  return prediction.whole * small / kDraws;
 }
 
 double Regions::small_error_probability(const View& view) const {

@@ -45,7 +45,8 @@ class Regions {
   /// Of both, and flown.
   [[nodiscard]] bool contains(const View& view) const;
 
-  /// Of place errors < place_error_m and size errors < size_error_m from this view alone.
+  /// That this view alone shows the object from end to end, with place errors < place_error_m and
+  /// size errors < size_error_m.
   [[nodiscard]] double small_error_probability(const View& view) const;
 
   /// The thresholds in force, and whether they are the paper's or the best share's.

@@ -8,14 +8,15 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "objects/stated_length.h"
 
 namespace saker::uncertainty {
 namespace {
 
 const std::string kHeader =
     "recording,object_id,kind,class,time_s,range,angle,elevation,reflectivity,points,confidence,"
-    "error_x,error_y,error_length,error_width";
-constexpr std::size_t kFirstError = 11;
+    "error_x,error_y,error_length,error_width,length_sd";
+constexpr std::size_t kFirstError = 11, kLengthSd = 15;
 
 Eigen::Vector2d in_frame(double heading, const Eigen::Vector2d& v) {
   return Eigen::Rotation2Dd(-heading) * v;
@@ -61,7 +62,7 @@ std::string line_of(const Sample& sample, const objects::ClassTable& table) {
   for (int i = 0; i < 4; ++i) {
     line += i < sample.error.size() ? fmt::format(",{}", sample.error[i]) : ",";
   }
-  return line + "\n";
+  return line + fmt::format(",{}\n", sample.length_sd);
 }
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -101,6 +102,7 @@ class Line {
     for (int i = 0; i < sample.error.size(); ++i) {
       sample.error[i] = within(kFirstError + static_cast<std::size_t>(i), -1e3, 1e3);
     }
+    sample.length_sd = number<double>(kLengthSd);
     return sample;
   }
 
@@ -152,6 +154,7 @@ Sample sample_of(const objects::Measurement& measurement, const objects::Model& 
   sample.confidence = measurement.class_probability[measurement.class_id];
   if (const auto* cuboid = std::get_if<objects::Cuboid>(&truth)) {
     sample.error = error_of(std::get<objects::Cuboid>(measured), *cuboid);
+    if (measurement.covariance.size() > 0) sample.length_sd = objects::length_sd(measurement);
   } else {
     sample.error =
         error_of(std::get<objects::Cylinder>(measured), std::get<objects::Cylinder>(truth), eye);
@@ -159,12 +162,8 @@ Sample sample_of(const objects::Measurement& measurement, const objects::Model& 
   return sample;
 }
 
-std::vector<Sample> whole(std::vector<Sample> samples, double most_m) {
-  constexpr Eigen::Index kCuboid = 4, kLength = 2;
-  std::erase_if(samples, [&](const Sample& sample) {
-    return sample.error.size() == kCuboid && std::abs(sample.error[kLength]) > most_m;
-  });
-  return samples;
+bool is_whole(const Sample& sample, double most_length_sd_m) {
+  return !(sample.length_sd > most_length_sd_m);
 }
 
 std::vector<Sample> read_samples(const std::filesystem::path& file,

@@ -24,6 +24,7 @@ struct Sample {
   /// Measured − true. Cuboid: [x, y, length, width] in the true object's frame, m. Cylinder: [x,
   /// y], x along the line of sight away from the lidar, y to its left, m.
   Eigen::VectorXd error;
+  double length_sd = NAN;  ///< m, that a cuboid's measurement states of its longer edge
 };
 
 /// The sample of a measurement of a true object; both models of one shape, in one frame with z up.
@@ -33,9 +34,9 @@ struct Sample {
                                const objects::Model& measured, const objects::Model& truth,
                                const Eigen::Vector3d& eye);
 
-/// Without the cuboids whose length is off by more than `most_m`: parts of an object, or more than
-/// one. SLAM's error has heavy tails for those (slam/hidden_ends.h).
-[[nodiscard]] std::vector<Sample> whole(std::vector<Sample> samples, double most_m);
+/// Whether the measurement showed the object from end to end: not of a cuboid that states more than
+/// `most_length_sd_m` of its length. Unknown counts as shown.
+[[nodiscard]] bool is_whole(const Sample& sample, double most_length_sd_m);
 
 /// CSV with a header line; one line a sample, angles in radians, unknown numbers as nan. Throws
 /// Error that names file, line and what was expected.

@@ -27,6 +27,7 @@ Prediction Model::predict(objects::ClassId id, const View& view) const {
   prediction.confidence = model.semantic.confidence(view);
   prediction.bias = std::move(expected.bias);
   prediction.covariance = std::move(expected.covariance);
+  prediction.whole = expected.whole;
   prediction.extrapolated = expected.extrapolated;
   prediction.cell = model.geometric.parts().intervals.cell_of(view);
   return prediction;

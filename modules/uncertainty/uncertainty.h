@@ -23,8 +23,9 @@ namespace saker::uncertainty {
 /// What to expect of a measurement of one object from one view.
 struct Prediction {
   double confidence = NAN;     ///< f^s: mean probability of its class over the points in the model
-  Eigen::VectorXd bias;        ///< measured − true, as Sample::error: 4 or 2
+  Eigen::VectorXd bias;        ///< measured − true, as Sample::error: 4 or 2; of whole ones
   Eigen::MatrixXd covariance;  ///< f^g: about the bias, same order: 4×4 or 2×2; positive definite
+  double whole = 1;            ///< share of measurements that show the object from end to end
   bool extrapolated = false;   ///< outside of what was flown: the nearest interval's values
   int cell = -1;               ///< the interval of range and angle. What is measured of one object
                                ///< from one cell shares its error: together it counts once

@@ -72,9 +72,9 @@ objects::MapObject mapped(const Measurement& m) {
   return object;
 }
 
-void expect_untouched(const Measurement& m, const FittedNoise& noise) {
+void expect_untouched(const Measurement& m, const FittedNoise& noise, int cell = -1) {
   const Measurement after = applied(m, Eigen::Matrix3d::Identity(), noise);
-  EXPECT_EQ(after.view_cell, -1);
+  EXPECT_EQ(after.view_cell, cell);
   EXPECT_EQ(after.covariance, m.covariance);
   EXPECT_EQ(objects::place(after.model), objects::place(m.model));
 }
@@ -109,7 +109,7 @@ TEST(FittedNoise, ReplacesTheCovarianceOfPlaceAndSizeAndLeavesTheRest) {
   EXPECT_TRUE(P(plan, plan).isApprox(fit.covariance, 1e-9));
   EXPECT_EQ(Eigen::MatrixXd(P(rest, rest)), Eigen::MatrixXd(m.covariance(rest, rest)));
   EXPECT_EQ(P(plan, rest).norm(), 0);
-  EXPECT_EQ(applied(m).view_cell, fit.cell);
+  EXPECT_EQ(applied(m).view_cell, 2 * fit.cell);
   EXPECT_NEAR(applied(m).length_sd, std::sqrt(m.covariance(6, 6)), 1e-12);
   EXPECT_GE(fit.cell, 0);
 }
@@ -142,9 +142,16 @@ TEST(FittedNoise, ATrunkIsPulledAlongTheLevelLineOfSight) {
   EXPECT_NEAR(after.covariance(5, 5), 0.06, 1e-12) << "the radius is as detection says";
 }
 
-TEST(FittedNoise, LeavesAloneWhatWasNotFlown) {
-  expect_untouched(car(30, 0.3), fitted());
-  expect_untouched(trunk({25, 0, -2}), fitted());
+TEST(FittedNoise, LeavesWhatWasNotFlownAsItIsButCountsItsCellOnce) {
+  const double angle = std::numbers::pi - 0.3;
+  expect_untouched(car(30, 0.3), fitted(), 2 * expected(kVehicle, 30, angle).cell + 1);
+  expect_untouched(trunk({25, 0, -2}), fitted(), 2 * expected(kTrunk, 25, 0).cell + 1);
+}
+
+TEST(FittedNoise, LeavesAVehicleWithAHiddenEndAsItIsBesideTheWholeOnesOfItsCell) {
+  Measurement m = car(8, 0.3);
+  m.covariance(6, 6) = 0.5;
+  expect_untouched(m, fitted(), applied(car(8, 0.3)).view_cell + 1);
 }
 
 TEST(FittedNoise, LeavesAloneAClassThatTheModelDoesNotKnow) {
@@ -156,7 +163,7 @@ TEST(FittedNoise, LeavesAloneAClassThatTheModelDoesNotKnow) {
 TEST(FittedNoise, LeavesAloneWhatWouldHaveNoSizeLeft) {
   Measurement m = car(8, 0);
   std::get<Cuboid>(m.model).size.y() = 0.05;
-  expect_untouched(m, fitted());
+  expect_untouched(m, fitted(), 2 * expected(kVehicle, 8, std::numbers::pi).cell + 1);
 }
 
 TEST(FittedNoise, FixedNoiseChangesNoMeasurementAndAddsWhatIsConfigured) {

@@ -19,8 +19,9 @@ inline uncertainty::GeometricModel::Parts errors(int sectors, const Eigen::Vecto
   for (int i = 0; i < parts.intervals.size(); ++i) {
     const double worse = 1 + 0.02 * i;  // no two intervals alike
     parts.fitted.push_back(
-        {worse * bias, (worse * sd).cwiseAbs2().asDiagonal(), Eigen::VectorXd(), 50});
+        {worse * bias, (worse * sd).cwiseAbs2().asDiagonal(), Eigen::VectorXd(), 1, 50});
   }
+  parts.whole_length_sd_m = 0.3;
   parts.common = common_sd.cwiseAbs2().asDiagonal();
   return parts;
 }

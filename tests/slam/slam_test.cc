@@ -126,7 +126,7 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReported) {
       const Eigen::VectorXd wider = reported.objects[i].covariance.diagonal().cwiseQuotient(
           own.objects[i].covariance.diagonal());
       if (is_cuboid(own.objects[i].model)) {
-        EXPECT_NEAR(wider[6], all ? config.noise.shared_length : 1, 1e-9);
+        EXPECT_NEAR(wider[6], all ? config.noise.shared_length : config.noise.shared_cells, 1e-9);
         EXPECT_NEAR(wider[8], 1, 1e-9);
       } else {
         EXPECT_NEAR(wider[0], all ? config.noise.shared_root : 1, 1e-9);

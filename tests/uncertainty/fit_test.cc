@@ -106,6 +106,37 @@ TEST(FitTest, IsHonestAboutSamplesItHasNotSeen) {
   EXPECT_LT(unseen.fused_nees, 1.15);
 }
 
+/// From ahead every second window misses the far end, and says so.
+std::vector<Sample> with_hidden_ends(std::vector<Sample> samples) {
+  bool hidden = false;
+  for (Sample& sample : samples) {
+    sample.length_sd = 0.1;
+    if (std::abs(sample.view.angle) > 0.5) continue;
+    hidden = !hidden;
+    if (!hidden) continue;
+    sample.length_sd = 1;
+    sample.error[2] -= 0.8;
+  }
+  return samples;
+}
+
+TEST(FitTest, WindowsThatDoNotShowBothEndsMoveNoBiasOrCovariance) {
+  const MadeLaw law;
+  const View ahead{6.5, 0.26, NAN, NAN};
+  const GeometricModel model = geometric(with_hidden_ends(made_samples(law, kEdges, 150, 1, 4)));
+  EXPECT_LT((model.expected(ahead).bias - law.bias(ahead)).cwiseAbs().maxCoeff(), 0.025);
+  const Eigen::MatrixXd expected = law.covariance(ahead);
+  EXPECT_LT((model.expected(ahead).covariance - expected).norm(), 0.3 * expected.norm());
+}
+
+TEST(FitTest, TheShareOfWholeWindowsIsKnownByWhereTheyAreSeenFrom) {
+  const GeometricModel model =
+      geometric(with_hidden_ends(made_samples(MadeLaw(), kEdges, 60, 1, 4)));
+  EXPECT_NEAR(model.expected({6.5, 0.26, NAN, NAN}).whole, 0.5, 0.05);
+  EXPECT_NEAR(model.expected({6.5, -0.26, NAN, NAN}).whole, 0.5, 0.05);
+  EXPECT_NEAR(model.expected({6.5, 2.3, NAN, NAN}).whole, 1, 0.05);
+}
+
 TEST(FitTest, ConfidenceFollowsRangeAndAngleWhereTheDataDo) {
   const MadeLaw law;
   const ClassModel model = fitted(made_samples(law, kEdges, 60, 6));

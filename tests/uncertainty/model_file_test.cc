@@ -63,6 +63,7 @@ TEST(ModelFileTest, WhatIsWrittenIsReadBackToTheLastBit) {
     EXPECT_EQ(a.confidence, b.confidence);
     EXPECT_EQ(a.bias, b.bias);
     EXPECT_EQ(a.covariance, b.covariance);
+    EXPECT_EQ(a.whole, b.whole);
     EXPECT_EQ(a.cell, b.cell);
   }
   EXPECT_EQ(read.common_covariance(kVehicle), made_model().common_covariance(kVehicle));
@@ -90,15 +91,15 @@ TEST(ModelFileTest, AFileThatWasEditedIsRefused) {
 }
 
 TEST(ModelFileTest, AnotherVersionIsRefused) {
-  expect_refusal(resealed("format: 1", "format: 0"), "format 0, expected 1");
-  expect_refusal(sealed("a: 1\n"), "format none, expected 1");
+  expect_refusal(resealed("format: 2", "format: 1"), "format 1, expected 2");
+  expect_refusal(sealed("a: 1\n"), "format none, expected 2");
   expect_refusal(sealed("a: [1\n"), "");
 }
 
 TEST(ModelFileTest, ClassesThatDoNotFitTheTableAreRefused) {
   expect_refusal(resealed("name: vehicle", "name: boat"), "class boat: expected a class");
   expect_refusal(resealed("shape: cuboid", "shape: cylinder"), "class vehicle.shape: expected");
-  expect_refusal(sealed("format: 1\nclasses: []\n"), "at least one class");
+  expect_refusal(sealed("format: 2\nclasses: []\n"), "at least one class");
 }
 
 TEST(ModelFileTest, NumbersThatAreNotValidAreRefusedWithTheirKey) {
@@ -111,6 +112,8 @@ TEST(ModelFileTest, NumbersThatAreNotValidAreRefusedWithTheirKey) {
   const std::string first = text.substr(at, text.find(',', at) - at);
   expect_refusal(resealed("common: [" + first, "common: [-" + first), "positive definite");
   expect_refusal(resealed("common: [" + first, "common: [.nan"), "expected a number");
+  expect_refusal(resealed("whole: 1", "whole: 1.5"), "whole");
+  expect_refusal(resealed("whole_length_sd: 0.25", "whole_length_sd: 0"), ".whole_length_sd");
   expect_refusal(resealed("common:", "komon:"), "komon");
 }
 

@@ -35,6 +35,15 @@ Model model_of(double sd, double confidence) {
   return Model({model});
 }
 
+/// The same, but only one measurement in two shows the object from end to end.
+Model half_whole(double sd) {
+  GeometricModel::Parts parts = model_of(sd, 0.99).of(kVehicle).geometric.parts();
+  for (auto& interval : parts.fitted) interval.whole = 0.5;
+  ClassModel model = model_of(sd, 0.99).of(kVehicle);
+  model.geometric = GeometricModel(parts);
+  return Model({model});
+}
+
 const View kOblique{5, kPi / 4, NAN, NAN};
 const View kSide{5, kPi / 2, NAN, NAN};
 
@@ -45,6 +54,12 @@ TEST(RegionsTest, ProbabilityOfSmallErrorsIsThatOfTheGaussian) {
   const double place = 1 - std::exp(-0.5 * 2 * 2);
   const double size = std::erf(4 / std::sqrt(2.0));
   EXPECT_NEAR(regions.small_error_probability(kOblique), place * size * size, 0.03);
+}
+
+TEST(RegionsTest, AViewThatHidesAnEndEverySecondTimeIsHalfAsProbableToBePrecise) {
+  const Model model = model_of(0.05, 0.99), half = half_whole(0.05);
+  EXPECT_NEAR(Regions({}, half, kVehicle).small_error_probability(kOblique),
+              0.5 * Regions({}, model, kVehicle).small_error_probability(kOblique), 1e-9);
 }
 
 TEST(RegionsTest, OnlyViewsWithSmallErrorsArePrecise) {

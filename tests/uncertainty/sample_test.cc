@@ -105,17 +105,22 @@ TEST(SampleTest, ErrorOfACylinderIsAlongAndLeftOfTheLineOfSight) {
   EXPECT_NEAR(sample.error[1], 0.2, 1e-12);
 }
 
-TEST(SampleTest, PartsAndPairsOfVehiclesAreNotWhole) {
-  std::vector<Sample> samples;
-  for (const double length_error : {-1.1, -0.3, 0.3, 1.2}) {
-    samples.push_back(made(kVehicle, Eigen::Vector4d(0, 0, length_error, 0)));
-  }
-  samples.push_back(made(kPole, Eigen::Vector2d(0.9, 0)));
-  const std::vector<Sample> rest = whole(samples, 0.4);
-  ASSERT_EQ(rest.size(), 3u);
-  EXPECT_EQ(rest[0].error[2], -0.3);
-  EXPECT_EQ(rest[1].error[2], 0.3);
-  EXPECT_EQ(rest[2].error.size(), 2);
+TEST(SampleTest, AVehicleWhoseEndsWereNotSeenIsNotWhole) {
+  Sample sample = made(kVehicle, Eigen::Vector4d::Zero());
+  sample.length_sd = 0.2;
+  EXPECT_TRUE(is_whole(sample, 0.25));
+  sample.length_sd = 0.9;
+  EXPECT_FALSE(is_whole(sample, 0.25));
+  sample.length_sd = NAN;
+  EXPECT_TRUE(is_whole(sample, 0.25)) << "nobody said";
+}
+
+TEST(SampleTest, TheStatedLengthIsThatOfTheLongerEdge) {
+  objects::Measurement across = measurement_of(kVehicle);
+  across.model = cuboid_of({8, 0, 0}, 0, 1.8, 4.4);
+  across.covariance = Matrix9d::Identity();
+  across.covariance(7, 7) = 0.09;
+  EXPECT_DOUBLE_EQ(sample_of(across, across.model, across.model, {0, 0, 2}).length_sd, 0.3);
 }
 
 TEST_F(SampleFileTest, WhatIsWrittenIsReadBackToTheLastBit) {
@@ -145,7 +150,7 @@ TEST_F(SampleFileTest, EachBrokenFileIsRefusedWithFileAndLine) {
   expect_refusal(with(",vehicle,", ",ground,"), ":2: class \"ground\", expected");
   expect_refusal(with(",7.25,", ",far,"), ":2: range \"far\", expected a number");
   expect_refusal(with(",7.25,", ",nan,"), ":2: range \"nan\"");
-  expect_refusal(with(",7.25,", ","), ":2: 14 fields, expected 15");
+  expect_refusal(with(",7.25,", ","), ":2: 15 fields, expected 16");
   expect_refusal(with(",0.30000000000000004,", ",1.5,"), ":2: confidence \"1.5\"");
 }
 

@@ -26,13 +26,13 @@ struct FitOptions {
 };
 
 std::vector<Sample> read_all(const std::vector<std::string>& files,
-                             const objects::ClassTable& table, double whole_m) {
+                             const objects::ClassTable& table) {
   std::vector<Sample> all;
   for (const std::string& file : files) {
     const std::vector<Sample> own = uncertainty::read_samples(file, table);
     all.insert(all.end(), own.begin(), own.end());
   }
-  return uncertainty::whole(std::move(all), whole_m);
+  return all;
 }
 
 /// Recordings that are fitted may not be tested on.
@@ -105,8 +105,8 @@ int fit(const FitOptions& options, const CommonOptions& common) {
   const flight::ProcessConfig config = read_configuration(common);
   const objects::ClassTable& table = config.autonomy.objects;
   const std::filesystem::path file = output_file(common.out, common.force);
-  const std::vector<Sample> samples = read_all(options.samples, table, config.fit.whole_m);
-  const std::vector<Sample> unseen = read_all(options.test, table, config.fit.whole_m);
+  const std::vector<Sample> samples = read_all(options.samples, table);
+  const std::vector<Sample> unseen = read_all(options.test, table);
   check_disjoint(samples, unseen);
   uncertainty::Provenance provenance = options.provenance;
   provenance.seed = common.seed;
