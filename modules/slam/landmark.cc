@@ -81,10 +81,15 @@ void see_ends(Landmark& landmark, const Gaussian& measured, double length_sd) {
   const int axis = longer_axis(std::get<Cuboid>(measured.model));
   if (axis != longer_axis(std::get<Cuboid>(landmark.model))) return;
   const Eigen::Vector2d sds = end_variances(measured.covariance, axis).cwiseSqrt();
-  landmark.end_sds = landmark.end_sds.cwiseMin(length_sd / sds.norm() * sds);
+  landmark.ends.see(length_sd / sds.norm() * sds);
 }
 
 }  // namespace
+
+void SeenEnds::see(const Eigen::Vector2d& sds) {
+  next = next.cwiseMin(best.cwiseMax(sds));
+  best = best.cwiseMin(sds);
+}
 
 std::vector<double> clamped_log(const std::vector<double>& probability, double least) {
   std::vector<double> logs;
@@ -168,8 +173,10 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
   landmark.last_stamp = std::max(landmark.last_stamp, other.last_stamp);
-  if (turn == 0) landmark.end_sds = landmark.end_sds.cwiseMin(other.end_sds);
-  if (turn == 2) landmark.end_sds = landmark.end_sds.cwiseMin(other.end_sds.reverse());
+  for (const Eigen::Vector2d& sds : {other.ends.best, other.ends.next}) {
+    if (turn == 0) landmark.ends.see(sds);
+    if (turn == 2) landmark.ends.see(sds.reverse());
+  }
   landmark.nearest = std::min(landmark.nearest, other.nearest);
   landmark.farthest = std::max(landmark.farthest, other.farthest);
 }
@@ -224,7 +231,7 @@ bool believed(const Landmark& landmark, const LandmarkConfig& config) {
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
   if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
-  if (is_cuboid(landmark.model) && !(landmark.end_sds.norm() <= config.most_length_sd_m))
+  if (is_cuboid(landmark.model) && !(landmark.ends.next.norm() <= config.most_length_sd_m))
     return false;
   return landmark.log_odds >= config.least_log_odds;
 }

@@ -67,7 +67,7 @@ struct LandmarkConfig {
     v.field("sure_sd", sure_sd, {0, 10}, "",
             "standard deviations by which a part that was not seen may lie nearer");
     v.field("most_length_sd_m", most_length_sd_m, {0.01, 10}, "m",
-            "standard deviation of a cuboid's length by the windows that saw its ends best, above "
+            "standard deviation of a cuboid's length by two windows that saw its ends best, above "
             "which nobody has seen how long it is: the class's mean is no object yet");
     v.field("most", most, {1, 100000}, "",
             "objects kept; the one with the fewest observations goes first");
@@ -103,6 +103,15 @@ struct Footprint {
   double sd = 0;  ///< of the centre, m: what was not seen may lie elsewhere
 };
 
+/// How well the low and the high end of a cuboid's longer side were seen, m, each in the windows
+/// that saw it best: one alone may have taken something else for an end.
+struct SeenEnds {
+  Eigen::Vector2d best = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d next = best;  ///< in the window that saw it best but one
+
+  void see(const Eigen::Vector2d& sds);
+};
+
 /// An object of the graph, or a candidate for one.
 struct Landmark {
   int id = -1;
@@ -121,8 +130,7 @@ struct Landmark {
       false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
   int still = 0;  ///< windows for which what moved has stood
   Time first_stamp = 0, last_stamp = 0;
-  /// Of the low and the high end of a cuboid's longer side, each in the window that saw it best, m.
-  Eigen::Vector2d end_sds = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  SeenEnds ends;  ///< of cuboids
   double nearest = std::numeric_limits<double>::infinity(),
          farthest = 0;  ///< distances at which it was measured, m
 };

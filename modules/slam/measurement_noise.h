@@ -47,10 +47,11 @@ struct MeasurementNoiseConfig {
         "no side shows is missed in all of them; by the NEES of ten flights");
     v.field("shared_length", shared_length, {1, 10000}, "", "the same of its length");
     v.field("shared_width", shared_width, {1, 10000}, "", "the same of its width");
-    v.field("shared_cells", shared_cells, {1, 10000}, "",
-            "view cells that say as much of a vehicle as the graph believes of one, with fitted "
-            "noise: among neighbours errors are larger than on spirals; by the NEES of ten "
-            "missions");
+    v.field(
+        "shared_cells", shared_cells, {1, 10000}, "",
+        "view cells that say as much of a vehicle's size as the graph believes of one, with fitted "
+        "noise: among neighbours errors are larger than on spirals; by the NEES of ten "
+        "missions");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

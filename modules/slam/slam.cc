@@ -214,8 +214,8 @@ objects::ObjectMap Slam::reported_map() const {
   objects::ObjectMap map = map_with_covariance().map;
   MeasurementNoiseConfig noise = config_.noise;
   if (config_.measurement_noise == NoiseSource::fitted) {  // cells count once; of radii windows do
-    noise.shared_place = noise.shared_length = noise.shared_width = noise.shared_cells;
-    noise.shared_root = 1;
+    noise.shared_length = noise.shared_width = noise.shared_cells;
+    noise.shared_place = noise.shared_root = 1;
   }
   for (objects::MapObject& object : map.objects) {
     if (object.covariance.size() == 0) continue;

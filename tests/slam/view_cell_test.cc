@@ -129,7 +129,7 @@ TEST(ViewCell, AFittedLengthDoesNotHideThatBothEndsWereSeen) {
   m.covariance = 0.25 * Matrix9d::Identity();  // what a cell's windows err by
   m.length_sd = 0.1;
   const Candidate candidate{&m, {m.model, m.covariance}, m.model, 8, 0.9};
-  EXPECT_NEAR(new_landmark(0, candidate, 0, kConfig).end_sds.norm(), 0.1, 1e-12);
+  EXPECT_NEAR(new_landmark(0, candidate, 0, kConfig).ends.best.norm(), 0.1, 1e-12);
 }
 
 TEST(ViewCell, MergedLandmarksShareTheirCells) {
