@@ -1,6 +1,7 @@
 #include "slam/landmark.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -82,6 +83,35 @@ void see_ends(Landmark& landmark, const Gaussian& measured, double length_sd) {
   if (axis != longer_axis(std::get<Cuboid>(landmark.model))) return;
   const Eigen::Vector2d sds = end_variances(measured.covariance, axis).cwiseSqrt();
   landmark.ends.see(length_sd / sds.norm() * sds);
+}
+
+constexpr double kElongated = 1.5;  // length to width, from which on the longer side is the length
+constexpr double kWholeSd = 0.3;    // m, of a length whose ends were both seen
+
+/// The axis of a cuboid's length by the windows that showed it from end to end; none did: −1.
+int length_axis(const Landmark& landmark) {
+  if (!is_cuboid(landmark.model)) return -1;
+  std::array<int, 2> windows{};
+  for (const Observation& o : landmark.observations) {
+    const auto& cuboid = std::get<Cuboid>(o.measured.model);
+    const int axis = longer_axis(cuboid);
+    const bool whole = std::sqrt(o.measured.covariance(6 + axis, 6 + axis)) <= kWholeSd;
+    if (whole && elongation(cuboid) >= kElongated)
+      windows[static_cast<std::size_t>(axis)] += o.windows;
+  }
+  if (windows[0] == windows[1]) return -1;
+  return windows[0] > windows[1] ? 0 : 1;
+}
+
+/// Whether a window took a side of the vehicle for its length: where its box is nearly square, by
+/// what it knows less well, as nobody saw how long it is.
+bool contradicts(const Observation& observation, int length_axis) {
+  if (length_axis < 0) return false;
+  const auto& cuboid = std::get<Cuboid>(observation.measured.model);
+  if (elongation(cuboid) >= kElongated) return longer_axis(cuboid) != length_axis;
+  const Eigen::MatrixXd& covariance = observation.measured.covariance;
+  return covariance(6 + length_axis, 6 + length_axis) <
+         covariance(7 - length_axis, 7 - length_axis);
 }
 
 }  // namespace
@@ -193,11 +223,15 @@ void remember(Landmark& landmark, const Observation& observation) {
 }
 
 std::vector<double> observation_weights(const Landmark& landmark) {
+  const int axis = length_axis(landmark);
   std::map<int, int> windows;
-  for (const Observation& o : landmark.observations) windows[o.cell] += o.windows;
+  for (const Observation& o : landmark.observations) {
+    if (!contradicts(o, axis)) windows[o.cell] += o.windows;
+  }
   std::vector<double> weights;
   for (const Observation& o : landmark.observations) {
-    weights.push_back(o.cell < 0 ? 1 : static_cast<double>(o.windows) / windows[o.cell]);
+    const double share = o.cell < 0 ? 1 : static_cast<double>(o.windows) / windows[o.cell];
+    weights.push_back(contradicts(o, axis) ? 0 : share);
   }
   return weights;
 }

@@ -169,8 +169,8 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
 /// joined.
 void remember(Landmark& landmark, const Observation& observation);
 
-/// What each observation weighs: all windows from one view cell share their error and weigh as one
-/// together, wherever their keyframes are; without a cell every observation weighs as one.
+/// What each weighs: windows of a view cell share their error and weigh as one together, others one
+/// each; those that took a vehicle's side for its length nothing, once others showed both its ends.
 [[nodiscard]] std::vector<double> observation_weights(const Landmark& landmark);
 
 [[nodiscard]] std::vector<double> class_probability(const Landmark& landmark);

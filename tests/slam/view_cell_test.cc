@@ -98,6 +98,23 @@ TEST(ViewCell, WithoutACellEveryWindowCounts) {
   EXPECT_NEAR(P(6, 6), kVariance / 6, 1e-6);
 }
 
+/// From behind, 1.9 m of its length stand for its width.
+Window piece(int keyframe) { return {keyframe, 3, 1.9}; }
+
+TEST(ViewCell, AWindowThatTookASideForTheLengthWeighsNothingBesideWholeOnes) {
+  Landmark landmark = measured({{0, 2, 4.4}, {1, 2, 4.4}, piece(2)});
+  landmark.observations[2].measured.covariance(7, 7) = 1;
+  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5, 0}));
+  landmark.observations[2].measured.covariance(6, 6) = 4;
+  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5, 1}));
+}
+
+TEST(ViewCell, WithoutAWholeWindowNoneIsLeftOut) {
+  Landmark landmark = measured({piece(0), piece(1)});
+  landmark.observations[1].measured.covariance(7, 7) = 1;
+  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5}));
+}
+
 TEST(ViewCell, AnOutlierOfACellStaysOne) {
   std::vector<Window> windows(9, {0, 2, 4.4});
   for (int k = 0; k < 9; ++k) windows[static_cast<std::size_t>(k)].keyframe = k;
