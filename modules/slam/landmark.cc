@@ -294,7 +294,7 @@ bool moves(const Landmark& landmark, const LandmarkConfig& config) {
 int naming_turn(const Landmark& landmark) {
   if (!is_cuboid(landmark.model)) return 0;
   const auto& cuboid = std::get<Cuboid>(landmark.model);
-  if (cuboid.size.x() >= cuboid.size.y()) return landmark.front.x() >= 0 ? 0 : 2;
+  if (longer_axis(cuboid) == 0) return landmark.front.x() >= 0 ? 0 : 2;
   return landmark.front.y() >= 0 ? 1 : 3;
 }
 

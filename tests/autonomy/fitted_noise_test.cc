@@ -7,6 +7,7 @@
 #include "autonomy/lockstep.h"
 #include "core/error.h"
 #include "made_model.h"
+#include "objects/view_cell.h"
 
 namespace saker::autonomy {
 namespace {
@@ -109,7 +110,7 @@ TEST(FittedNoise, ReplacesTheCovarianceOfPlaceAndSizeAndLeavesTheRest) {
   EXPECT_TRUE(P(plan, plan).isApprox(fit.covariance, 1e-9));
   EXPECT_EQ(Eigen::MatrixXd(P(rest, rest)), Eigen::MatrixXd(m.covariance(rest, rest)));
   EXPECT_EQ(P(plan, rest).norm(), 0);
-  EXPECT_EQ(applied(m).view_cell, 2 * fit.cell);
+  EXPECT_EQ(applied(m).view_cell, objects::corrected_cell(fit.cell));
   EXPECT_NEAR(applied(m).length_sd, std::sqrt(m.covariance(6, 6)), 1e-12);
   EXPECT_GE(fit.cell, 0);
 }
@@ -144,8 +145,10 @@ TEST(FittedNoise, ATrunkIsPulledAlongTheLevelLineOfSight) {
 
 TEST(FittedNoise, LeavesWhatWasNotFlownAsItIsButCountsItsCellOnce) {
   const double angle = std::numbers::pi - 0.3;
-  expect_untouched(car(30, 0.3), fitted(), 2 * expected(kVehicle, 30, angle).cell + 1);
-  expect_untouched(trunk({25, 0, -2}), fitted(), 2 * expected(kTrunk, 25, 0).cell + 1);
+  expect_untouched(car(30, 0.3), fitted(),
+                   objects::uncorrected_cell(expected(kVehicle, 30, angle).cell));
+  expect_untouched(trunk({25, 0, -2}), fitted(),
+                   objects::uncorrected_cell(expected(kTrunk, 25, 0).cell));
 }
 
 TEST(FittedNoise, LeavesAVehicleWithAHiddenEndAsItIsBesideTheWholeOnesOfItsCell) {
@@ -163,7 +166,8 @@ TEST(FittedNoise, LeavesAloneAClassThatTheModelDoesNotKnow) {
 TEST(FittedNoise, LeavesAloneWhatWouldHaveNoSizeLeft) {
   Measurement m = car(8, 0);
   std::get<Cuboid>(m.model).size.y() = 0.05;
-  expect_untouched(m, fitted(), 2 * expected(kVehicle, 8, std::numbers::pi).cell + 1);
+  expect_untouched(m, fitted(),
+                   objects::uncorrected_cell(expected(kVehicle, 8, std::numbers::pi).cell));
 }
 
 TEST(FittedNoise, FixedNoiseChangesNoMeasurementAndAddsWhatIsConfigured) {

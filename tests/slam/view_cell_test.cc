@@ -1,3 +1,5 @@
+#include "objects/view_cell.h"
+
 #include <gtest/gtest.h>
 
 #include "made_world.h"
@@ -115,6 +117,21 @@ TEST(ViewCell, WithoutAWholeWindowNoneIsLeftOut) {
   EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5}));
 }
 
+TEST(ViewCell, AShortWindowMayHideAnEndUnlessTheModelCorrectedIt) {
+  std::vector<Keyframe> poses = standing(2);
+  const Chain chain{&poses};
+  GraphConfig config = quadratic();
+  config.hidden_ends.sds = 1;
+  Landmark corrected =
+      measured({{0, objects::corrected_cell(1), 4.4}, {1, objects::corrected_cell(2), 3.4}});
+  (void)refine(corrected, {&chain, 1}, config);
+  EXPECT_NEAR(length(corrected), 3.9, 1e-6);
+  Landmark hidden =
+      measured({{0, objects::uncorrected_cell(1), 4.4}, {1, objects::uncorrected_cell(2), 3.4}});
+  (void)refine(hidden, {&chain, 1}, config);
+  EXPECT_GT(length(hidden), 4.1);
+}
+
 TEST(ViewCell, AnOutlierOfACellStaysOne) {
   std::vector<Window> windows(9, {0, 2, 4.4});
   for (int k = 0; k < 9; ++k) windows[static_cast<std::size_t>(k)].keyframe = k;
@@ -147,6 +164,13 @@ TEST(ViewCell, AFittedLengthDoesNotHideThatBothEndsWereSeen) {
   m.length_sd = 0.1;
   const Candidate candidate{&m, {m.model, m.covariance}, m.model, 8, 0.9};
   EXPECT_NEAR(new_landmark(0, candidate, 0, kConfig).ends.best.norm(), 0.1, 1e-12);
+}
+
+TEST(ViewCell, MergedLandmarksHaveTheEndsThatEitherSaw) {
+  Landmark a = measured({{0, 2, 4.4}});
+  EXPECT_FALSE(std::isfinite(a.ends.next.norm()));
+  absorb(a, measured({{1, 2, 4.4}}), kConfig);
+  EXPECT_NEAR(a.ends.next.norm(), a.ends.best.norm(), 1e-12);
 }
 
 TEST(ViewCell, MergedLandmarksShareTheirCells) {
