@@ -23,6 +23,20 @@ double smooth_step(double x) {
   return t * t * (3 - 2 * t);
 }
 
+/// How well the face at an edge was looked at by the sensor that is farthest outside of it: 0 from
+/// behind … 1.
+double looked_at(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors, int k,
+                 int end, const SetbackConfig& config) {
+  const double angle = footprint.direction + k * M_PI / 2;
+  const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));
+  double outside = 0;
+  for (const Eigen::Vector3d& sensor : sensors) {
+    const double at = axis.dot(sensor.head<2>());
+    outside = std::max(outside, end == 0 ? footprint.low[k] - at : at - footprint.high[k]);
+  }
+  return smooth_step(outside / config.outside_m);
+}
+
 /// Where the vehicle would go on beyond an edge.
 objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondConfig& config) {
   const int across = 1 - k;
@@ -38,6 +52,17 @@ objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondC
 
 }  // namespace
 
+Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackConfig& config) {
+  Footprint seen = footprint;
+  for (int k = 0; k < 2; ++k) {
+    const double low = looked_at(footprint, sight.sensors, k, 0, config);
+    const double high = looked_at(footprint, sight.sensors, k, 1, config);
+    seen.low[k] = std::lerp(footprint.outer_low[k] - config.mean_m, footprint.low[k], low);
+    seen.high[k] = std::lerp(footprint.outer_high[k] + config.mean_m, footprint.high[k], high);
+  }
+  return seen;
+}
+
 EdgeSds edge_sds(const Footprint& footprint, const Sight& sight, const VehicleNoiseConfig& noise) {
   const double seen_sd =
       std::hypot(noise.edge_m, noise.edge_per_m * nearest_range(footprint, sight.sensors));
@@ -46,7 +71,8 @@ EdgeSds edge_sds(const Footprint& footprint, const Sight& sight, const VehicleNo
     for (int end = 0; end < 2; ++end) {
       const int past = sight.through(beyond(footprint, k, end, noise.beyond));
       const double seen = smooth_step(past / noise.beyond.beams);
-      sds[k][end] = seen_sd + (1 - seen) * noise.unseen_m;
+      const double behind = 1 - looked_at(footprint, sight.sensors, k, end, noise.setback);
+      sds[k][end] = seen_sd + behind * noise.setback.sd_m + (1 - seen) * noise.unseen_m;
     }
   }
   return sds;

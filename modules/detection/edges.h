@@ -7,6 +7,11 @@
 
 namespace saker::detection {
 
+/// The footprint with each edge where it likely is: what is seen of a face that no sensor looked at
+/// is its upper edge and what stands out of it, some way back from the lower part.
+[[nodiscard]] Footprint as_seen(const Footprint& footprint, const Sight& sight,
+                                const SetbackConfig& config);
+
 using EdgeSds = std::array<std::array<double, 2>, 2>;  ///< m, [axis][low, high]
 
 /// How well each edge of a footprint is known. What hides an edge, or loses its points, only takes

@@ -11,36 +11,47 @@
 /// The rectangle of a vehicle on the ground plane.
 ///
 /// Reads the places of its points on the plane; makes a direction and the extents along it and
-/// across. Extents are percentiles over the vertices of the convex hull (paper, III-A), which
-/// holds each side once however many points lie on it. The direction: `pca`, the first principal
-/// component of the hull's vertices (paper), or `closeness`, the one under which most points lie
-/// near a side (Zhang et al., "Efficient L-Shape Fitting for Vehicle Detection Using Laser
-/// Scanners", IV 2017).
+/// across, in one of two ways. `sides`: the direction is the one under which most points lie near a
+/// side (Zhang et al., "Efficient L-Shape Fitting for Vehicle Detection Using Laser Scanners", IV
+/// 2017); a side lies where most strips across it reach to, so that what stands out of a few of
+/// them, as a wing mirror does, or stays back, as a rounded corner, does not move it. `hull`: the
+/// paper's (III-A), the first principal component of the convex hull's vertices and percentiles
+/// over them; the hull has few vertices on a straight side, and a mirror is one of them.
 namespace saker::detection {
 
-enum class AxisMethod { pca, closeness };
+enum class FootprintMethod { sides, hull };
 
-[[nodiscard]] inline std::vector<std::string> enum_names(AxisMethod) {
-  return {"pca", "closeness"};
+[[nodiscard]] inline std::vector<std::string> enum_names(FootprintMethod) {
+  return {"sides", "hull"};
 }
 
 struct FootprintConfig {
-  AxisMethod axis = AxisMethod::closeness;
+  FootprintMethod method = FootprintMethod::sides;
+  double strip_m = 0.25;
+  double reach_percentile = 75;
+  double outer_percentile = 95;
+  double side_m = 0.1;
+  double step_deg = 1;
   double low_percentile = 5;
   double high_percentile = 95;
-  double side_m = 0.2;
-  double step_deg = 1;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("axis", axis, "", "how the direction is found: pca (the paper's) or closeness");
-    v.field("low_percentile", low_percentile, {0, 49}, "%",
-            "of the hull's vertices along an axis: the lower edge (paper: 5)");
-    v.field("high_percentile", high_percentile, {51, 100}, "%",
-            "of the hull's vertices along an axis: the upper edge (paper: 95)");
+    v.field("method", method, "", "how the rectangle is found: sides, or hull (the paper's)");
+    v.field("strip_m", strip_m, {0.05, 2}, "m",
+            "sides: strips across a side, wider than beams are apart, a mirror within one or two");
+    v.field(
+        "reach_percentile", reach_percentile, {50, 100}, "%",
+        "sides: of how far the strips reach outward: the side; a quarter of them may stand out");
+    v.field("outer_percentile", outer_percentile, {50, 100}, "%",
+            "sides: the same of what stands out farthest: all that is seen of a side from behind");
     v.field("side_m", side_m, {0.01, 1}, "m",
-            "closeness: nearer to a side than this counts as on it");
-    v.field("step_deg", step_deg, {0.1, 10}, "deg", "closeness: step of the directions tried");
+            "sides: nearer to a side than this counts as on it: doors and wheels, noise and drift");
+    v.field("step_deg", step_deg, {0.1, 10}, "deg", "sides: step of the directions tried");
+    v.field("low_percentile", low_percentile, {0, 49}, "%",
+            "hull: of its vertices along an axis: the lower edge (paper: 5)");
+    v.field("high_percentile", high_percentile, {51, 100}, "%",
+            "hull: of its vertices along an axis: the upper edge (paper: 95)");
   }
 };
 
@@ -48,8 +59,13 @@ struct Footprint {
   double direction = 0;                            ///< of the first axis, radians
   Eigen::Vector2d low = Eigen::Vector2d::Zero();   ///< lower edges along both axes, m
   Eigen::Vector2d high = Eigen::Vector2d::Zero();  ///< upper edges
+  Eigen::Vector2d outer_low = low;                 ///< what stands out farthest, there
+  Eigen::Vector2d outer_high = high;
   [[nodiscard]] Eigen::Vector2d size() const { return high - low; }
 };
+
+/// The same rectangle with its second axis first: a quarter turn.
+[[nodiscard]] Footprint turned(const Footprint& footprint);
 
 /// A box on the ground with its first two axes along a footprint's.
 /// \param plan low and high corner along these axes

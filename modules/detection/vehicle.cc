@@ -49,10 +49,6 @@ double top_of(const std::vector<BodyPoint>& points, double percentile) {
   return core::percentile(heights, percentile / 100);
 }
 
-Eigen::Matrix2d covariance_of(const Edge& low, const Edge& high) {
-  return Eigen::Vector2d(low.sd * low.sd, high.sd * high.sd).asDiagonal();
-}
-
 SizePrior prior_of(int axis, const VehicleConfig& config) {
   return axis == 0 ? SizePrior{config.length_m, config.length_sd_m}
                    : SizePrior{config.width_m, config.width_sd_m};
@@ -82,20 +78,11 @@ Rectangle rectangle(const Footprint& footprint, const Sight& sight, const Vehicl
     const Edge low = {footprint.low[k], sds[k][0] + missing};
     const Edge high = {footprint.high[k], sds[k][1] + missing};
     result.axis[k] = fuse_edges(low, high, prior, seen_sd);
-    // What the class's mean length errs by is the same in all windows of a vehicle: counted in
-    // each, many hidden ends would outvote a seen one.
-    if (k == 0) result.axis[k].covariance = of_centre_and_size(covariance_of(low, high));
+    const SizePrior shared = {prior.mean, prior.sd * std::sqrt(config.prior_windows)};
+    result.axis[k].covariance = fuse_edges(low, high, shared, seen_sd).covariance;
     const double variance = std::pow(prior.sd, 2) + std::pow(sds[k][0], 2) + std::pow(sds[k][1], 2);
     result.cost += std::pow(footprint.size()[k] - prior.mean, 2) / variance + std::log(variance);
   }
-  return result;
-}
-
-Footprint turned(const Footprint& f) {
-  Footprint result;
-  result.direction = f.direction + M_PI / 2;
-  result.low = {f.low.y(), -f.high.x()};
-  result.high = {f.high.y(), -f.low.x()};
   return result;
 }
 
@@ -183,7 +170,8 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
   if (static_cast<int>(points.size()) < config.least_points) return fit;
   fit.motion = motion_of(points, config);
   const Places places = thinned(points, fit.motion.velocity, config.thin_m);
-  const Footprint footprint = fit_footprint(places, config.footprint);
+  const Footprint footprint =
+      as_seen(fit_footprint(places, config.footprint), sight, config.noise.setback);
   const double top = top_of(points, config.top_percentile);
   fit.status = judge(footprint, top, config);
   if (fit.status != VehicleStatus::fitted) return fit;

@@ -59,8 +59,24 @@ struct GapConfig {
   }
 };
 
+/// Faces that no sensor looked at: over a roof and a hood only their upper edges are seen.
+struct SetbackConfig {
+  double mean_m = 0.1;
+  double sd_m = 0.1;
+  double outside_m = 1;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("mean_m", mean_m, {0, 1}, "m",
+            "by which upper edges stand back behind the lower part: sides lean in, screens slope");
+    v.field("sd_m", sd_m, {0, 1}, "m", "its standard deviation among vehicles and views");
+    v.field("outside_m", outside_m, {0.01, 20}, "m",
+            "that a sensor is outside of a face's plane: it looks at the face");
+  }
+};
+
 struct VehicleNoiseConfig {
-  double edge_m = 0.08;
+  double edge_m = 0.04;
   double edge_per_m = 0.003;
   double unseen_m = 1.0;
   double yaw_deg = 2;
@@ -68,10 +84,12 @@ struct VehicleNoiseConfig {
   double ground_m = 0.06;
   double top_m = 0.08;
   BeyondConfig beyond;
+  SetbackConfig setback;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("edge_m", edge_m, {0.001, 2}, "m", "standard deviation of an edge that was seen");
+    v.field("edge_m", edge_m, {0.001, 2}, "m",
+            "standard deviation of an edge whose face was looked at");
     v.field("edge_per_m", edge_per_m, {0, 0.1}, "m/m",
             "more of it by range: half the spacing of beams");
     v.field("unseen_m", unseen_m, {0.1, 10}, "m",
@@ -81,6 +99,7 @@ struct VehicleNoiseConfig {
     v.field("ground_m", ground_m, {0.001, 2}, "m", "of the local ground's height");
     v.field("top_m", top_m, {0.001, 2}, "m", "of the top");
     v.group("beyond", beyond, "free space that shows an edge");
+    v.group("setback", setback, "faces that no sensor looked at");
   }
 };
 
@@ -97,6 +116,7 @@ struct VehicleConfig {
   double length_sd_m = 0.45;
   double width_m = 1.8;
   double width_sd_m = 0.12;
+  double prior_windows = 20;
   double thin_m = 0.05;
   double front_sd_m = 0.15;
   double most_front_log_odds = 3;
@@ -121,6 +141,9 @@ struct VehicleConfig {
     v.field("length_sd_m", length_sd_m, {0.01, 10}, "m", "its standard deviation");
     v.field("width_m", width_m, {0.5, 5}, "m", "mean width of the class, for unseen sides");
     v.field("width_sd_m", width_sd_m, {0.01, 5}, "m", "its standard deviation");
+    v.field("prior_windows", prior_windows, {1, 10000}, "",
+            "that say as much of the class's size as one of them: all say the same, and many that "
+            "hide a side would outvote the few that saw both");
     v.field("thin_m", thin_m, {0.01, 0.5}, "m",
             "squares to which the footprint's points are thinned");
     v.field("front_sd_m", front_sd_m, {0.01, 2}, "m",

@@ -1,0 +1,105 @@
+#include "detection/footprint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "detection/edges.h"
+
+namespace saker::detection {
+namespace {
+
+using Places = std::vector<Eigen::Vector2d>;
+
+constexpr double kLength = 4.5, kWidth = 1.8;
+
+/// The outline of a box about the origin with its length along `yaw`.
+Places outline(double yaw) {
+  const Eigen::Rotation2Dd turn(yaw);
+  Places places;
+  const auto add = [&](double x, double y) { places.emplace_back(turn * Eigen::Vector2d(x, y)); };
+  for (double x = -kLength / 2; x <= kLength / 2; x += 0.05) {
+    add(x, -kWidth / 2);
+    add(x, kWidth / 2);
+  }
+  for (double y = -kWidth / 2; y <= kWidth / 2; y += 0.05) {
+    add(-kLength / 2, y);
+    add(kLength / 2, y);
+  }
+  return places;
+}
+
+/// Wing mirrors: 0.15 m out of both sides, 0.15 m long.
+Places with_mirrors(Places places, double yaw) {
+  const Eigen::Rotation2Dd turn(yaw);
+  for (const double side : {-1.0, 1.0}) {
+    for (double x = 0.8; x <= 0.95; x += 0.05) {
+      for (double out = 0.05; out <= 0.15; out += 0.05)
+        places.emplace_back(turn * Eigen::Vector2d(x, side * (kWidth / 2 + out)));
+    }
+  }
+  return places;
+}
+
+double turned_off(const Footprint& footprint, double yaw) {
+  return std::abs(std::remainder(footprint.direction - yaw, M_PI));
+}
+
+TEST(Footprint, OfAnOutlineIsItsRectangle) {
+  for (const double yaw : {0.0, 0.3, 1.2, -0.9, 2.5}) {
+    const Footprint footprint = fit_footprint(outline(yaw), {});
+    EXPECT_LT(turned_off(footprint, yaw), 0.01) << yaw;
+    EXPECT_NEAR(footprint.size().x(), kLength, 0.05) << yaw;
+    EXPECT_NEAR(footprint.size().y(), kWidth, 0.05) << yaw;
+  }
+}
+
+TEST(Footprint, MirrorsMoveNoSide) {
+  const double yaw = 0.3;
+  const Places places = with_mirrors(outline(yaw), yaw);
+  const Footprint footprint = fit_footprint(places, {});
+  EXPECT_LT(turned_off(footprint, yaw), 0.01);
+  EXPECT_NEAR(footprint.size().y(), kWidth, 0.05);
+  EXPECT_GT((footprint.outer_high - footprint.outer_low).y(), footprint.size().y());
+}
+
+TEST(Footprint, OfTheHullIsThePapersPercentiles) {
+  FootprintConfig config;
+  config.method = FootprintMethod::hull;
+  config.low_percentile = 0;
+  config.high_percentile = 100;
+  const Footprint whole = fit_footprint(outline(0.2), config);
+  EXPECT_NEAR(whole.size().x(), kLength, 0.06);
+  EXPECT_NEAR(whole.size().y(), kWidth, 0.06);
+  config.high_percentile = 60;
+  EXPECT_LT(fit_footprint(outline(0.2), config).size().x(), whole.size().x());
+}
+
+TEST(Footprint, QuarterTurnIsTheSameRectangle) {
+  const Footprint footprint = fit_footprint(with_mirrors(outline(0.3), 0.3), {});
+  const Footprint turned = detection::turned(footprint);
+  const auto corner = [](const Footprint& f, double x, double y) {
+    return Eigen::Vector2d(Eigen::Rotation2Dd(f.direction) * Eigen::Vector2d(x, y));
+  };
+  EXPECT_TRUE(corner(turned, turned.low.x(), turned.low.y())
+                  .isApprox(corner(footprint, footprint.high.x(), footprint.low.y())));
+  EXPECT_TRUE(corner(turned, turned.outer_high.x(), turned.outer_high.y())
+                  .isApprox(corner(footprint, footprint.outer_low.x(), footprint.outer_high.y())));
+}
+
+TEST(Footprint, FaceNobodyLookedAtStandsBackAndIsLessWellKnown) {
+  const Footprint footprint = fit_footprint(outline(0), {});
+  Beams none;
+  none.fill(Window());
+  const Sight from_the_right{{{0, -8, 3}}, none, SE3::Identity()};
+  const VehicleNoiseConfig noise;
+  const Footprint seen = as_seen(footprint, from_the_right, noise.setback);
+  EXPECT_DOUBLE_EQ(seen.low.y(), footprint.low.y());
+  EXPECT_NEAR(seen.high.y(), footprint.outer_high.y() + noise.setback.mean_m, 1e-12);
+  const EdgeSds sds = edge_sds(seen, from_the_right, noise);
+  EXPECT_NEAR(sds[1][1] - sds[1][0], noise.setback.sd_m, 1e-12);
+}
+
+}  // namespace
+}  // namespace saker::detection
