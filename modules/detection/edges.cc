@@ -6,6 +6,9 @@
 namespace saker::detection {
 namespace {
 
+/// Of what a far face's edge scatters by, an outline's: it shows the lower part too, but rounded.
+constexpr double kOutline = 0.5;
+
 double nearest_range(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors) {
   const Eigen::Vector2d x(std::cos(footprint.direction), std::sin(footprint.direction));
   const Eigen::Vector2d middle = 0.5 * (footprint.low + footprint.high);
@@ -23,7 +26,7 @@ double smooth_step(double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// How well the face at an edge was looked at by the sensor that is farthest outside of it: 0 from
+/// How well a face was looked at by the sensor that is farthest outside of it: 0 from beside or
 /// behind … 1.
 double looked_at(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors, int k,
                  int end, const SetbackConfig& config) {
@@ -36,6 +39,20 @@ double looked_at(const Footprint& footprint, const std::vector<Eigen::Vector3d>&
   }
   return smooth_step(outside / config.outside_m);
 }
+
+/// The two ways of not looking at a face, each 0 … 1: over the vehicle from the far side, and from
+/// beside it, where its edge is an outline.
+struct NotLookedAt {
+  double over, beside;
+
+  NotLookedAt(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors, int k,
+              int end, const SetbackConfig& config) {
+    const double own = looked_at(footprint, sensors, k, end, config);
+    const double far_side = looked_at(footprint, sensors, k, 1 - end, config);
+    over = (1 - own) * far_side;
+    beside = (1 - own) * (1 - far_side);
+  }
+};
 
 /// Where the vehicle would go on beyond an edge.
 objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondConfig& config) {
@@ -55,10 +72,12 @@ objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondC
 Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackConfig& config) {
   Footprint seen = footprint;
   for (int k = 0; k < 2; ++k) {
-    const double low = looked_at(footprint, sight.sensors, k, 0, config);
-    const double high = looked_at(footprint, sight.sensors, k, 1, config);
-    seen.low[k] = std::lerp(footprint.outer_low[k] - config.mean_m, footprint.low[k], low);
-    seen.high[k] = std::lerp(footprint.outer_high[k] + config.mean_m, footprint.high[k], high);
+    const NotLookedAt low(footprint, sight.sensors, k, 0, config);
+    const NotLookedAt high(footprint, sight.sensors, k, 1, config);
+    seen.low[k] = std::lerp(footprint.low[k], footprint.outer_low[k], low.over + low.beside) -
+                  low.over * config.mean_m;
+    seen.high[k] = std::lerp(footprint.high[k], footprint.outer_high[k], high.over + high.beside) +
+                   high.over * config.mean_m;
   }
   return seen;
 }
@@ -71,8 +90,9 @@ EdgeSds edge_sds(const Footprint& footprint, const Sight& sight, const VehicleNo
     for (int end = 0; end < 2; ++end) {
       const int past = sight.through(beyond(footprint, k, end, noise.beyond));
       const double seen = smooth_step(past / noise.beyond.beams);
-      const double behind = 1 - looked_at(footprint, sight.sensors, k, end, noise.setback);
-      sds[k][end] = seen_sd + behind * noise.setback.sd_m + (1 - seen) * noise.unseen_m;
+      const NotLookedAt not_looked_at(footprint, sight.sensors, k, end, noise.setback);
+      const double setback = not_looked_at.over + kOutline * not_looked_at.beside;
+      sds[k][end] = seen_sd + setback * noise.setback.sd_m + (1 - seen) * noise.unseen_m;
     }
   }
   return sds;

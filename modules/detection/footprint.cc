@@ -62,7 +62,8 @@ Reach reach(const std::vector<double>& along, const std::vector<double>& across,
 }
 
 /// Zhang et al., eq. 5, with the sides where most strips reach to; a point beyond a side is as
-/// close as one within.
+/// close as one within. Smooth at a side, so that of points which all lie near one still the
+/// closest direction wins.
 double closeness(const std::array<std::vector<double>, 2>& values, const Footprint& footprint,
                  double side) {
   double score = 0;
@@ -73,7 +74,7 @@ double closeness(const std::array<std::vector<double>, 2>& values, const Footpri
       nearest =
           std::min({nearest, std::abs(at - footprint.low[k]), std::abs(footprint.high[k] - at)});
     }
-    score += 1 / std::max(nearest, side);
+    score += 1 / std::hypot(nearest, side);
   }
   return score;
 }

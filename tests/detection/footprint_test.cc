@@ -69,11 +69,13 @@ TEST(Footprint, OfTheHullIsThePapersPercentiles) {
   config.method = FootprintMethod::hull;
   config.low_percentile = 0;
   config.high_percentile = 100;
-  const Footprint whole = fit_footprint(outline(0.2), config);
-  EXPECT_NEAR(whole.size().x(), kLength, 0.06);
-  EXPECT_NEAR(whole.size().y(), kWidth, 0.06);
-  config.high_percentile = 60;
-  EXPECT_LT(fit_footprint(outline(0.2), config).size().x(), whole.size().x());
+  const Eigen::Vector2d half(kLength / 2, kWidth / 2);
+  const Places corners = {-half, {half.x(), -half.y()}, half, {-half.x(), half.y()}};
+  const Footprint whole = fit_footprint(corners, config);
+  EXPECT_NEAR(whole.size().x(), kLength, 1e-9);
+  EXPECT_NEAR(whole.size().y(), kWidth, 1e-9);
+  config.low_percentile = 40;
+  EXPECT_NEAR(fit_footprint(corners, config).size().x(), 0.8 * kLength, 1e-9);
 }
 
 TEST(Footprint, QuarterTurnIsTheSameRectangle) {
