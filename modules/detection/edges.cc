@@ -6,7 +6,8 @@
 namespace saker::detection {
 namespace {
 
-/// Of what a far face's edge scatters by, an outline's: it shows the lower part too, but rounded.
+/// Of what the edge of a face scatters by that is seen over the vehicle, one that is seen from
+/// beside: an outline, which shows the lower part too, but rounded.
 constexpr double kOutline = 0.5;
 
 double nearest_range(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors) {
@@ -26,33 +27,21 @@ double smooth_step(double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// How well a face was looked at by the sensor that is farthest outside of it: 0 from beside or
-/// behind … 1.
-double looked_at(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors, int k,
-                 int end, const SetbackConfig& config) {
+/// How well the low and the high face across an axis were looked at by the sensor that is farthest
+/// outside of each: 0 from beside or over the vehicle … 1.
+std::array<double, 2> looked_at(const Footprint& footprint,
+                                const std::vector<Eigen::Vector3d>& sensors, int k,
+                                const SetbackConfig& config) {
   const double angle = footprint.direction + k * M_PI / 2;
   const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));
-  double outside = 0;
+  std::array<double, 2> outside{};
   for (const Eigen::Vector3d& sensor : sensors) {
     const double at = axis.dot(sensor.head<2>());
-    outside = std::max(outside, end == 0 ? footprint.low[k] - at : at - footprint.high[k]);
+    outside[0] = std::max(outside[0], footprint.low[k] - at);
+    outside[1] = std::max(outside[1], at - footprint.high[k]);
   }
-  return smooth_step(outside / config.outside_m);
+  return {smooth_step(outside[0] / config.outside_m), smooth_step(outside[1] / config.outside_m)};
 }
-
-/// The two ways of not looking at a face, each 0 … 1: over the vehicle from the far side, and from
-/// beside it, where its edge is an outline.
-struct NotLookedAt {
-  double over, beside;
-
-  NotLookedAt(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors, int k,
-              int end, const SetbackConfig& config) {
-    const double own = looked_at(footprint, sensors, k, end, config);
-    const double far_side = looked_at(footprint, sensors, k, 1 - end, config);
-    over = (1 - own) * far_side;
-    beside = (1 - own) * (1 - far_side);
-  }
-};
 
 /// Where the vehicle would go on beyond an edge.
 objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondConfig& config) {
@@ -72,12 +61,10 @@ objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondC
 Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackConfig& config) {
   Footprint seen = footprint;
   for (int k = 0; k < 2; ++k) {
-    const NotLookedAt low(footprint, sight.sensors, k, 0, config);
-    const NotLookedAt high(footprint, sight.sensors, k, 1, config);
-    seen.low[k] = std::lerp(footprint.low[k], footprint.outer_low[k], low.over + low.beside) -
-                  low.over * config.mean_m;
-    seen.high[k] = std::lerp(footprint.high[k], footprint.outer_high[k], high.over + high.beside) +
-                   high.over * config.mean_m;
+    const auto [low, high] = looked_at(footprint, sight.sensors, k, config);
+    seen.low[k] = std::lerp(footprint.outer_low[k] - high * config.mean_m, footprint.low[k], low);
+    seen.high[k] =
+        std::lerp(footprint.outer_high[k] + low * config.mean_m, footprint.high[k], high);
   }
   return seen;
 }
@@ -87,11 +74,11 @@ EdgeSds edge_sds(const Footprint& footprint, const Sight& sight, const VehicleNo
       std::hypot(noise.edge_m, noise.edge_per_m * nearest_range(footprint, sight.sensors));
   EdgeSds sds{};
   for (int k = 0; k < 2; ++k) {
+    const std::array<double, 2> looked = looked_at(footprint, sight.sensors, k, noise.setback);
     for (int end = 0; end < 2; ++end) {
       const int past = sight.through(beyond(footprint, k, end, noise.beyond));
       const double seen = smooth_step(past / noise.beyond.beams);
-      const NotLookedAt not_looked_at(footprint, sight.sensors, k, end, noise.setback);
-      const double setback = not_looked_at.over + kOutline * not_looked_at.beside;
+      const double setback = (1 - looked[end]) * std::lerp(kOutline, 1.0, looked[1 - end]);
       sds[k][end] = seen_sd + setback * noise.setback.sd_m + (1 - seen) * noise.unseen_m;
     }
   }

@@ -7,8 +7,8 @@
 
 namespace saker::detection {
 
-/// The footprint with each edge where it likely is: what is seen of a face that no sensor looked at
-/// is its upper edge and what stands out of it, some way back from the lower part.
+/// The footprint with each edge where it likely is. Of a face that no sensor looked at, what stands
+/// out farthest; seen over the vehicle that is its upper edge, some way back from the lower part.
 [[nodiscard]] Footprint as_seen(const Footprint& footprint, const Sight& sight,
                                 const SetbackConfig& config);
 

@@ -103,5 +103,20 @@ TEST(Footprint, FaceNobodyLookedAtStandsBackAndIsLessWellKnown) {
   EXPECT_NEAR(sds[1][1] - sds[1][0], noise.setback.sd_m, 1e-12);
 }
 
+TEST(Footprint, FaceSeenFromBesideIsAnOutline) {
+  const Footprint footprint = fit_footprint(with_mirrors(outline(0), 0), {});
+  Beams none;
+  none.fill(Window());
+  const Sight from_behind{{{-9, 0, 2}}, none, SE3::Identity()};
+  const VehicleNoiseConfig noise;
+  const Footprint seen = as_seen(footprint, from_behind, noise.setback);
+  EXPECT_DOUBLE_EQ(seen.low.y(), footprint.outer_low.y());
+  EXPECT_DOUBLE_EQ(seen.high.y(), footprint.outer_high.y());
+  const EdgeSds sds = edge_sds(seen, from_behind, noise);
+  EXPECT_DOUBLE_EQ(sds[1][0], sds[1][1]);
+  EXPECT_GT(sds[1][0], sds[0][0]) << "than of the face that it looks at";
+  EXPECT_LT(sds[1][0], sds[0][1]) << "than of the one behind the vehicle";
+}
+
 }  // namespace
 }  // namespace saker::detection

@@ -103,6 +103,16 @@ TEST(Vehicle, EndThatIsHiddenIsNotKnown) {
   EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * length_sd(fit));
 }
 
+TEST(Vehicle, ClassWidthOfAHiddenSideIsStatedAsWhatOneOfManyWindowsKnows) {
+  Scene scene{{0, -8, 1.2}, {.x = 0, .y = 0, .yaw = 0}};
+  scene.others = {{.x = 0, .y = 2.1, .yaw = 0, .length = 8, .height = 3}};
+  const VehicleFit fit = scene.fit();
+  ASSERT_EQ(fit.status, VehicleStatus::fitted);
+  const VehicleConfig config;
+  EXPECT_NEAR(fit.cuboid.size.y(), config.width_m, 0.15);
+  EXPECT_GT(std::sqrt(fit.covariance(7, 7)), 3 * config.width_sd_m);
+}
+
 TEST(Vehicle, ThatBeamsGoThroughIsMoreThanOne) {
   const Scene first{{0, 0, 4}, {.x = 10, .y = 1.8, .yaw = M_PI / 2, .length = 2.8}};
   const Scene second{{0, 0, 4}, {.x = 10, .y = -1.8, .yaw = M_PI / 2, .length = 2.8}};
