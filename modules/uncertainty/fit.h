@@ -36,7 +36,7 @@ struct FitConfig {
             "of the viewing angle between front and back, for cuboids: 30 degrees each");
     v.field("whole_length_sd_m", whole_length_sd_m, {0, 100}, "m",
             "a cuboid whose measurement states a worse length did not show both its ends, which "
-            "detection gives 0.1 m, or 0.35 m and more");
+            "detection gives up to 0.25 m, or 0.35 m and more");
     v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
     v.field("least_draws", least_draws, {1, 100000}, "",
             "of objects in an interval, below it counts as not flown");
