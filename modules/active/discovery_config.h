@@ -62,7 +62,7 @@ struct DiscoveryConfig {
   double same_m = 1.2;
   double around_m = 2.5;
   double around_step_m = 0.5;
-  double least_free = 0.9;
+  double least_free = 0.95;
   double absent_s = 4;
   SweepConfig sweep;
 
@@ -81,7 +81,8 @@ struct DiscoveryConfig {
     v.field("around_step_m", around_step_m, {0.1, 5}, "m",
             "between the columns that are looked at: two cells of the block");
     v.field("least_free", least_free, {0, 1}, "",
-            "share of them that must be free or a mapped object's");
+            "share of them that must be free or a mapped object's: one face of a vehicle fills a "
+            "tenth");
     v.field("absent_s", absent_s, {0, 600}, "s",
             "for so long, seen from near by, until it is dismissed: SLAM believes in it by then");
     v.group("sweep", sweep, "back and forth over the geofence");

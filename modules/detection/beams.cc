@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace saker::detection {
 namespace {
@@ -14,21 +15,28 @@ float azimuth_bins(const Eigen::Vector3f& direction) {
   return (std::atan2(direction.y(), direction.x()) + static_cast<float>(M_PI)) * kPerRadian;
 }
 
+/// Where a segment lies within a box, as shares of its length.
+struct Passage {
+  float enter = 0;
+  float leave = 0;  ///< more than 1: it ends within
+};
+
 /// The segment against the box |x| ≤ half, slab by slab (Kay and Kajiya, SIGGRAPH 1986).
-bool goes_through(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
-                  const Eigen::Vector3f& half) {
-  float enter = 0, leave = std::numeric_limits<float>::max();
+std::optional<Passage> passage(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
+                               const Eigen::Vector3f& half) {
+  Passage in{0, std::numeric_limits<float>::max()};
   for (int k = 0; k < 3; ++k) {
     const float along = to[k] - from[k];
     if (along == 0) {
-      if (std::abs(from[k]) > half[k]) return false;
+      if (std::abs(from[k]) > half[k]) return std::nullopt;
       continue;
     }
     const float a = (-half[k] - from[k]) / along, b = (half[k] - from[k]) / along;
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
+    in.enter = std::max(in.enter, std::min(a, b));
+    in.leave = std::min(in.leave, std::max(a, b));
   }
-  return enter < leave && leave <= 1;
+  if (in.enter >= in.leave || in.enter >= 1) return std::nullopt;
+  return in;
 }
 
 }  // namespace
@@ -50,12 +58,12 @@ void Beams::fill(const Window& window) {
   for (const Beam& beam : window.beams) ends_[--first_[bin(beam)]] = beam.end;
 }
 
-int Beams::through(const objects::Cuboid& box) const {
-  if (box.size.minCoeff() <= 0) return 0;
+template <class Take>
+void Beams::for_each_in(const objects::Cuboid& box, const Take& take) const {
+  if (box.size.minCoeff() <= 0) return;
   const Eigen::Isometry3f T_box_level = box.pose.inverse().cast<float>();
   const Eigen::Vector3f half = 0.5f * box.size.cast<float>();
   const Eigen::Vector3f centre = box.pose.translation().cast<float>();
-  int count = 0;
   for (std::size_t scan = 0; scan < sensors_.size(); ++scan) {
     const Eigen::Vector3f from = T_box_level * sensors_[scan];
     const Eigen::Vector3f towards = centre - sensors_[scan];
@@ -66,11 +74,33 @@ int Beams::through(const objects::Cuboid& box) const {
     for (int b = middle - bins; b <= middle + bins; ++b) {
       const std::size_t at = scan * kBins + (b + kBins) % kBins;
       for (std::size_t i = first_[at]; i < first_[at + 1]; ++i) {
-        count += goes_through(from, T_box_level * ends_[i], half) ? 1 : 0;
+        const Eigen::Vector3f to = T_box_level * ends_[i];
+        if (const auto in = passage(from, to, half)) take(from, to, *in);
       }
     }
   }
+}
+
+int Beams::through(const objects::Cuboid& box) const {
+  int count = 0;
+  for_each_in(box, [&](const auto&, const auto&, const Passage& in) { count += in.leave <= 1; });
   return count;
+}
+
+double Beams::nearest(const objects::Cuboid& box, int count, double least_m) const {
+  std::vector<float> nearest(static_cast<std::size_t>(count),
+                             std::numeric_limits<float>::infinity());  // ascending
+  const float face = -0.5f * static_cast<float>(box.size.x());
+  for_each_in(box, [&](const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Passage& in) {
+    const float leave = std::min(in.leave, 1.0f);
+    const Eigen::Vector3f way = to - from;
+    if ((leave - in.enter) * way.norm() < least_m) return;
+    const float x = from.x() + (way.x() > 0 ? in.enter : leave) * way.x() - face;
+    if (x >= nearest.back()) return;
+    nearest.pop_back();
+    nearest.insert(std::ranges::upper_bound(nearest, x), x);
+  });
+  return nearest.back();
 }
 
 }  // namespace saker::detection

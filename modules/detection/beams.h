@@ -18,7 +18,17 @@ class Beams {
   /// \return beams (of those that the window keeps) that entered it, left it and ended behind it.
   [[nodiscard]] int through(const objects::Cuboid& box) const;
 
+  /// How near to the low face of the box's x axis beams come within the box: what they met there,
+  /// if anything, lies farther on.
+  /// \param count   of beams that must come so near
+  /// \param least_m  way within the box from which on a beam counts
+  /// \return m from that face; infinite where there are fewer
+  [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const;
+
  private:
+  /// Calls `take(from, to, passage)` for each beam that enters the box, in the box's frame.
+  template <class Take>
+  void for_each_in(const objects::Cuboid& box, const Take& take) const;
   [[nodiscard]] std::size_t bin(const Beam& beam) const;
 
   std::vector<Eigen::Vector3f> sensors_;  ///< of each scan

@@ -43,17 +43,17 @@ std::array<double, 2> looked_at(const Footprint& footprint,
   return {smooth_step(outside[0] / config.outside_m), smooth_step(outside[1] / config.outside_m)};
 }
 
-/// Where the vehicle would go on beyond an edge.
+/// Where the vehicle would go on beyond an edge; its x axis points outward.
 objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondConfig& config) {
-  const int across = 1 - k;
+  const int across = 1 - k, sign = end == 0 ? -1 : 1;
+  const double edge = sign * (end == 0 ? footprint.low[k] : footprint.high[k]);
   const double inset = std::min(config.inset_m, 0.25 * footprint.size()[across]);
-  std::array<Eigen::Vector2d, 2> plan{footprint.low, footprint.high};
-  plan[0][across] += inset;
-  plan[1][across] -= inset;
-  const double edge = plan[end][k], outward = end == 0 ? -1 : 1;
-  plan[end][k] = edge + outward * config.far_m;
-  plan[1 - end][k] = edge + outward * config.near_m;
-  return upright(footprint.direction, plan, {config.lowest_m, config.highest_m});
+  const Eigen::Vector2d sides(footprint.low[across] + inset, footprint.high[across] - inset);
+  const bool same_way = (k == 0) == (end == 1);  // a quarter turn from outward is +across
+  const double low = same_way ? sides[0] : -sides[1], high = same_way ? sides[1] : -sides[0];
+  const double outward = footprint.direction + k * M_PI / 2 + (end == 0 ? M_PI : 0);
+  return upright(outward, {Eigen::Vector2d(edge + config.near_m, low), {edge + config.far_m, high}},
+                 {config.lowest_m, config.highest_m});
 }
 
 }  // namespace
@@ -69,20 +69,29 @@ Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackC
   return seen;
 }
 
-EdgeSds edge_sds(const Footprint& footprint, const Sight& sight, const VehicleNoiseConfig& noise) {
+Edges edges_of(const Footprint& footprint, const Sight& sight, const VehicleNoiseConfig& noise) {
   const double seen_sd =
       std::hypot(noise.edge_m, noise.edge_per_m * nearest_range(footprint, sight.sensors));
-  EdgeSds sds{};
+  Edges edges{};
   for (int k = 0; k < 2; ++k) {
     const std::array<double, 2> looked = looked_at(footprint, sight.sensors, k, noise.setback);
     for (int end = 0; end < 2; ++end) {
-      const int past = sight.through(beyond(footprint, k, end, noise.beyond));
-      const double seen = smooth_step(past / noise.beyond.beams);
+      const objects::Cuboid box = beyond(footprint, k, end, noise.beyond);
+      // A side of which one face alone was seen is thin.
+      const double most_way_m = k == 0 ? noise.beyond.far_m : 0.5 * box.size.y();
+      const double free_from =
+          sight.nearest(box, noise.beyond.beams, std::min(noise.beyond.least_way_m, most_way_m));
+      const bool ends_unseen = k == 0 && std::isfinite(free_from);
+      const double outward = ends_unseen ? (1 - looked[end]) * free_from / 2 : 0;
       const double setback = (1 - looked[end]) * std::lerp(kOutline, 1.0, looked[1 - end]);
-      sds[k][end] = seen_sd + setback * noise.setback.sd_m + (1 - seen) * noise.unseen_m;
+      FootprintEdge& edge = edges[k][end];
+      edge.hidden_m = free_from;
+      edge.position = end == 0 ? footprint.low[k] - outward : footprint.high[k] + outward;
+      edge.sd = seen_sd + setback * noise.setback.sd_m +
+                std::min(free_from / std::sqrt(12.0), noise.unseen_m);
     }
   }
-  return sds;
+  return edges;
 }
 
 }  // namespace saker::detection

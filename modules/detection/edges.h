@@ -3,6 +3,7 @@
 #include <array>
 
 #include "detection/footprint.h"
+#include "detection/interval.h"
 #include "detection/vehicle.h"
 
 namespace saker::detection {
@@ -12,11 +13,18 @@ namespace saker::detection {
 [[nodiscard]] Footprint as_seen(const Footprint& footprint, const Sight& sight,
                                 const SetbackConfig& config);
 
-using EdgeSds = std::array<std::array<double, 2>, 2>;  ///< m, [axis][low, high]
+struct FootprintEdge : Edge {
+  double hidden_m = 0;  ///< so much farther out it may lie; infinite where nothing was seen
+};
 
-/// How well each edge of a footprint is known. What hides an edge, or loses its points, only takes
-/// away: that the vehicle ends there is seen by beams that went through where it would go on.
-[[nodiscard]] EdgeSds edge_sds(const Footprint& footprint, const Sight& sight,
-                               const VehicleNoiseConfig& noise);
+using Edges = std::array<std::array<FootprintEdge, 2>, 2>;  ///< [axis][low, high]
+
+/// Where the edges of a footprint whose first axis is the length are, and how well that is known.
+/// What hides an edge, or loses its points, only takes away: that the vehicle ends there is seen by
+/// beams that went through where it would go on. An end that no sensor looked at is hidden behind
+/// the roof: it lies anywhere between what was seen and where beams went through. Sides are as wide
+/// as the roof, whose edge is seen.
+[[nodiscard]] Edges edges_of(const Footprint& footprint, const Sight& sight,
+                             const VehicleNoiseConfig& noise);
 
 }  // namespace saker::detection

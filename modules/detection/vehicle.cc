@@ -68,20 +68,27 @@ double shortfall(double size, const SizePrior& prior) {
   return std::max(0.0, prior.mean - kNearlyAll * prior.sd - size);
 }
 
+/// What is hidden makes nothing longer than its class, and no short thing unlikely.
+double unlike(double size, double hidden_m, const SizePrior& prior) {
+  return size > prior.mean ? size - prior.mean : std::max(0.0, prior.mean - size - hidden_m);
+}
+
 Rectangle rectangle(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
-  const auto sds = edge_sds(footprint, sight, config.noise);
+  const Edges edges = edges_of(footprint, sight, config.noise);
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {
     const SizePrior prior = prior_of(k, config);
-    const double missing = shortfall(footprint.size()[k], prior);
-    const Edge low = {footprint.low[k], sds[k][0] + missing};
-    const Edge high = {footprint.high[k], sds[k][1] + missing};
+    auto [low, high] = edges[k];
+    const double size = footprint.size()[k];
+    const double variance = std::pow(prior.sd, 2) + std::pow(low.sd, 2) + std::pow(high.sd, 2);
+    result.cost += std::pow(unlike(size, low.hidden_m + high.hidden_m, prior), 2) / variance +
+                   std::log(variance);
+    low.sd += shortfall(size, prior);
+    high.sd += shortfall(size, prior);
     result.axis[k] = fuse_edges(low, high, prior, seen_sd);
     const SizePrior shared = {prior.mean, prior.sd * std::sqrt(config.prior_windows)};
     result.axis[k].covariance = fuse_edges(low, high, shared, seen_sd).covariance;
-    const double variance = std::pow(prior.sd, 2) + std::pow(sds[k][0], 2) + std::pow(sds[k][1], 2);
-    result.cost += std::pow(footprint.size()[k] - prior.mean, 2) / variance + std::log(variance);
   }
   return result;
 }

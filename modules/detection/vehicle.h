@@ -19,25 +19,28 @@
 /// more than one vehicle. The lower end is the front (paper, III-A).
 namespace saker::detection {
 
-/// The space beside an edge through which beams show that the vehicle ends there.
+/// The space beside an edge in which beams show that the vehicle ends there.
 struct BeyondConfig {
   double near_m = 0.15;
-  double far_m = 0.6;
-  double inset_m = 0.2;
+  double far_m = 1.5;
+  double inset_m = 0.1;
   double lowest_m = 0.25;
   double highest_m = 0.75;
-  double beams = 3;
+  double least_way_m = 0.2;
+  int beams = 3;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("near_m", near_m, {0, 2}, "m", "from the edge: beyond its noise");
     v.field("far_m", far_m, {0.05, 5}, "m",
-            "from the edge: nearer than the next vehicle, wide enough for beams far away");
+            "from the edge: what was free farther on says no more than the class's size");
     v.field("inset_m", inset_m, {0, 1}, "m",
             "from the sides: what passes along a side tells nothing of the end");
     v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: grass and kerbs");
     v.field("highest_m", highest_m, {0.1, 3}, "m",
             "above the ground: lower than hoods, over which beams pass");
+    v.field("least_way_m", least_way_m, {0, 2}, "m",
+            "of a beam within: deeper than what is met in a wheel arch");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
   }
 };
@@ -182,6 +185,9 @@ struct Sight {
   /// \param box in the frame of the points
   [[nodiscard]] int through(const objects::Cuboid& box) const {
     return beams.through(objects::transformed(T_level_local, box));
+  }
+  [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const {
+    return beams.nearest(objects::transformed(T_level_local, box), count, least_m);
   }
 };
 

@@ -291,6 +291,19 @@ bool moves(const Landmark& landmark, const LandmarkConfig& config) {
   return (high - low).maxCoeff() > longest + config.moving_distance_m;
 }
 
+bool comes_back(const Landmark& landmark, const LandmarkConfig& config) {
+  const std::vector<Footprint>& recent = landmark.recent;
+  if (recent.empty()) return false;
+  const auto away = [&](const Footprint& footprint) {
+    return (footprint.centre - recent.back().centre).head<2>().norm();
+  };
+  const auto before = std::ranges::find_if(
+      recent, [&](const Footprint& f) { return away(f) <= config.moving_distance_m; });
+  return std::any_of(before, recent.end(), [&](const Footprint& f) {
+    return away(f) > config.moving_distance_m + config.sure_sd * (f.sd + recent.back().sd);
+  });
+}
+
 int naming_turn(const Landmark& landmark) {
   if (!is_cuboid(landmark.model)) return 0;
   const auto& cuboid = std::get<Cuboid>(landmark.model);

@@ -190,6 +190,10 @@ void remember(Landmark& landmark, const Observation& observation);
 /// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
 [[nodiscard]] bool moves(const Landmark& landmark, const LandmarkConfig& config);
 
+/// Whether the last footprint stands where it stood before others stood elsewhere: what was taken
+/// for one object are two.
+[[nodiscard]] bool comes_back(const Landmark& landmark, const LandmarkConfig& config);
+
 /// Quarters that turn a cuboid's frame to its name: the longer edge is the length, x points to the
 /// front.
 [[nodiscard]] int naming_turn(const Landmark& landmark);

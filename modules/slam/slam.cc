@@ -159,6 +159,11 @@ void Slam::expect(const std::vector<int>& measured) {
 
 void Slam::review(SlamUpdate& report) {
   report.merged = merge_duplicates(landmarks_, config_.duplicates, config_.landmarks);
+  const auto of_two = [this](const Landmark& landmark) {
+    return !landmark.moving && moves(landmark, config_.landmarks) &&
+           comes_back(landmark, config_.landmarks);
+  };
+  report.removed += static_cast<int>(std::erase_if(landmarks_, of_two));
   for (Landmark& landmark : landmarks_) {
     if (landmark.moving || !moves(landmark, config_.landmarks)) continue;
     landmark.moving = true;

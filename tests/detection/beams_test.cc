@@ -60,5 +60,29 @@ TEST(Beams, OfAnEmptyWindowAreNone) {
   EXPECT_EQ(beams.through(box_at({5, 0, 0})), 0);
 }
 
+/// Low face at x = 4.
+TEST(Beams, ComeAsNearAsTheyEnterOrLeave) {
+  EXPECT_NEAR(two_beams({10, 0, 0}, {10, 5, 0}).nearest(box_at({5, 0, 0}), 1, 0.2), 0, 1e-6);
+  const Beams across = two_beams({10, 0, 0}, {7.5, 0, 0});  // the second enters at (5.25, 1.5)
+  EXPECT_NEAR(across.nearest(box_at({5.5, 1, 0}), 1, 0.2), 5.25 - 4.5, 1e-5);
+}
+
+TEST(Beams, ComeAsNearAsTheOneOfSoMany) {
+  const Beams beams = two_beams({10, 0, 0}, {5.5, -1, 0});  // the second enters at y = 0.5
+  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 1, 0.2), 0, 1e-6);
+  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 2, 0.2), 4.125 - 4, 1e-5);
+  EXPECT_TRUE(std::isinf(beams.nearest(box_at({5, 0, 0}), 3, 0.2)));
+}
+
+TEST(Beams, ThatEndWithinABoxCameAsNear) {
+  EXPECT_NEAR(two_beams({5, 0, 0}, {0, 9, 0}).nearest(box_at({5, 0, 0}), 1, 0.2), 0, 1e-6);
+}
+
+TEST(Beams, ThatEnterABoxByLessThanTheyMustTellNothing) {
+  const Beams beams = two_beams({4.1f, 0, 0}, {0, 9, 0});
+  EXPECT_TRUE(std::isinf(beams.nearest(box_at({5, 0, 0}), 1, 0.2)));
+  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 1, 0.05), 0, 1e-6);
+}
+
 }  // namespace
 }  // namespace saker::detection

@@ -99,8 +99,8 @@ TEST(Footprint, FaceNobodyLookedAtStandsBackAndIsLessWellKnown) {
   const Footprint seen = as_seen(footprint, from_the_right, noise.setback);
   EXPECT_DOUBLE_EQ(seen.low.y(), footprint.low.y());
   EXPECT_NEAR(seen.high.y(), footprint.outer_high.y() + noise.setback.mean_m, 1e-12);
-  const EdgeSds sds = edge_sds(seen, from_the_right, noise);
-  EXPECT_NEAR(sds[1][1] - sds[1][0], noise.setback.sd_m, 1e-12);
+  const Edges edges = edges_of(seen, from_the_right, noise);
+  EXPECT_NEAR(edges[1][1].sd - edges[1][0].sd, noise.setback.sd_m, 1e-12);
 }
 
 TEST(Footprint, FaceSeenFromBesideIsAnOutline) {
@@ -112,10 +112,43 @@ TEST(Footprint, FaceSeenFromBesideIsAnOutline) {
   const Footprint seen = as_seen(footprint, from_behind, noise.setback);
   EXPECT_DOUBLE_EQ(seen.low.y(), footprint.outer_low.y());
   EXPECT_DOUBLE_EQ(seen.high.y(), footprint.outer_high.y());
-  const EdgeSds sds = edge_sds(seen, from_behind, noise);
-  EXPECT_DOUBLE_EQ(sds[1][0], sds[1][1]);
-  EXPECT_GT(sds[1][0], sds[0][0]) << "than of the face that it looks at";
-  EXPECT_LT(sds[1][0], sds[0][1]) << "than of the one behind the vehicle";
+  const Edges edges = edges_of(seen, from_behind, noise);
+  EXPECT_DOUBLE_EQ(edges[1][0].sd, edges[1][1].sd);
+  EXPECT_GT(edges[1][0].sd, edges[0][0].sd) << "than of the face that it looks at";
+  EXPECT_LT(edges[1][0].sd, edges[0][1].sd) << "than of the one behind the vehicle";
+}
+
+/// Of beams from high above the rear that meet the ground beyond the front, clear of it from
+/// `free_from_m` beyond the edge on.
+Edges edges_over_the_roof(const Footprint& footprint, double free_from_m) {
+  const Eigen::Vector3d sensor(footprint.low.x() - 8, 0, 6);
+  Window window;
+  window.sensors = {sensor};
+  for (const double y : {-0.4, -0.2, 0.0, 0.2, 0.4}) {
+    const Eigen::Vector3d grazes(footprint.high.x() + free_from_m, y, BeyondConfig().highest_m);
+    const Eigen::Vector3d end = sensor + 1.2 * (grazes - sensor);
+    window.beams.push_back({end.cast<float>(), 0});
+  }
+  Beams beams;
+  beams.fill(window);
+  return edges_of(footprint, {window.sensors, beams, SE3::Identity()}, {});
+}
+
+TEST(Footprint, HiddenEndLiesBetweenWhatWasSeenAndWhereBeamsWentThrough) {
+  const Footprint footprint = fit_footprint(outline(0), {});
+  const double near = BeyondConfig().near_m;
+  const Edges edges = edges_over_the_roof(footprint, near + 0.6);
+  EXPECT_NEAR(edges[0][1].position, footprint.high.x() + 0.6 / 2, 1e-3);
+  EXPECT_DOUBLE_EQ(edges[0][0].position, footprint.low.x());
+  const Edges nearer = edges_over_the_roof(footprint, near + 0.3);
+  EXPECT_NEAR(edges[0][1].sd - nearer[0][1].sd, 0.3 / std::sqrt(12), 1e-3);
+}
+
+TEST(Footprint, EndBeyondWhichNoBeamWentMayLieAnywhere) {
+  const Footprint footprint = fit_footprint(outline(0), {});
+  const Edges edges = edges_over_the_roof(footprint, BeyondConfig().far_m + 0.2);
+  EXPECT_DOUBLE_EQ(edges[0][1].position, footprint.high.x());
+  EXPECT_GE(edges[0][1].sd, VehicleNoiseConfig().unseen_m);
 }
 
 }  // namespace

@@ -169,6 +169,17 @@ TEST(Landmark, MovesWhenItsFootprintsCoverMoreThanOneVehicle) {
   EXPECT_TRUE(moves(feed(car(8, 0, 0), kVehicle), kConfig));
 }
 
+TEST(Landmark, OfTwoVehiclesComesBackWhatDrivesAwayDoesNot) {
+  Feed two, one;
+  two(car(5, 0, 0), kVehicle);
+  two(car(8, 0, 0), kVehicle);
+  EXPECT_TRUE(comes_back(two(car(5.2, 0, 0), kVehicle), kConfig));
+  one(car(5, 0, 0), kVehicle);
+  one(car(8, 0, 0), kVehicle);
+  EXPECT_FALSE(comes_back(one(car(11, 0, 0), kVehicle), kConfig));
+  EXPECT_FALSE(comes_back(one(car(11.2, 0, 0), kVehicle), kConfig));
+}
+
 TEST(Landmark, StandsWhenOnlyTheSeenPartWanders) {
   Feed feed;  // first the rear, then all, then the front of a vehicle from x = 5 to 9.4
   feed(car(5.6, 0, 0, 1.2), kVehicle);
