@@ -56,6 +56,15 @@ objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondC
                  {config.lowest_m, config.highest_m});
 }
 
+/// How far beyond an edge space is seen to be free; infinite where it is not seen.
+double free_from(const Footprint& footprint, int k, int end, const Sight& sight,
+                 const BeyondConfig& config) {
+  const objects::Cuboid box = beyond(footprint, k, end, config);
+  // A side of which one face alone was seen is thin.
+  const double most_way_m = k == 0 ? config.far_m : 0.5 * box.size.y();
+  return sight.nearest(box, config.beams, std::min(config.least_way_m, most_way_m));
+}
+
 }  // namespace
 
 Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackConfig& config) {
@@ -76,19 +85,15 @@ Edges edges_of(const Footprint& footprint, const Sight& sight, const VehicleNois
   for (int k = 0; k < 2; ++k) {
     const std::array<double, 2> looked = looked_at(footprint, sight.sensors, k, noise.setback);
     for (int end = 0; end < 2; ++end) {
-      const objects::Cuboid box = beyond(footprint, k, end, noise.beyond);
-      // A side of which one face alone was seen is thin.
-      const double most_way_m = k == 0 ? noise.beyond.far_m : 0.5 * box.size.y();
-      const double free_from =
-          sight.nearest(box, noise.beyond.beams, std::min(noise.beyond.least_way_m, most_way_m));
-      const bool ends_unseen = k == 0 && std::isfinite(free_from);
-      const double outward = ends_unseen ? (1 - looked[end]) * free_from / 2 : 0;
-      const double setback = (1 - looked[end]) * std::lerp(kOutline, 1.0, looked[1 - end]);
       FootprintEdge& edge = edges[k][end];
-      edge.hidden_m = free_from;
+      edge.hidden_m = free_from(footprint, k, end, sight, noise.beyond);
+      const bool lies_farther = k == 0 && std::isfinite(edge.hidden_m);
+      const double share = (1 - looked[end]) * noise.beyond.hidden_share;
+      const double outward = lies_farther ? share * edge.hidden_m : 0;
+      const double setback = (1 - looked[end]) * std::lerp(kOutline, 1.0, looked[1 - end]);
       edge.position = end == 0 ? footprint.low[k] - outward : footprint.high[k] + outward;
       edge.sd = seen_sd + setback * noise.setback.sd_m +
-                std::min(free_from / std::sqrt(12.0), noise.unseen_m);
+                std::min(edge.hidden_m / std::sqrt(12.0), noise.unseen_m);
     }
   }
   return edges;

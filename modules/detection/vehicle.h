@@ -28,6 +28,7 @@ struct BeyondConfig {
   double highest_m = 0.75;
   double least_way_m = 0.2;
   int beams = 3;
+  double hidden_share = 0.5;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -42,6 +43,10 @@ struct BeyondConfig {
     v.field("least_way_m", least_way_m, {0, 2}, "m",
             "of a beam within: deeper than what is met in a wheel arch");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
+    v.field(
+        "hidden_share", hidden_share, {0, 1}, "",
+        "of the way on to where beams went through, at which an end that no sensor looked at is "
+        "taken to lie: anywhere on it is as likely");
   }
 };
 

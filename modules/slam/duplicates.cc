@@ -32,6 +32,18 @@ bool one_object(const Landmark& a, const Landmark& b, const DuplicateConfig& con
          stand_on_one_ground(a.model, b.model, config.cuboid_overlap, gates.height_gate_m);
 }
 
+bool knows_more(const Landmark& a, const Landmark& b, const LandmarkConfig& config) {
+  const bool believed_a = believed(a, config);
+  return believed_a != believed(b, config) ? believed_a : a.seen > b.seen;
+}
+
+/// Boxes about parts of vehicles lie between neighbours, and hold windows of both: about a vehicle
+/// whose ends were seen they tell nothing.
+bool is_part_of(const Landmark& part, const Landmark& whole, const LandmarkConfig& config) {
+  return is_cuboid(part.model) && !part.moving && believed(whole, config) &&
+         !believed(part, config);
+}
+
 }  // namespace
 
 int merge_duplicates(std::vector<Landmark>& landmarks, const DuplicateConfig& config,
@@ -43,12 +55,12 @@ int merge_duplicates(std::vector<Landmark>& landmarks, const DuplicateConfig& co
         ++b;
         continue;
       }
-      if (landmarks[b].seen >
-          landmarks[a].seen) {  // the better known one's estimate, the older one's id
+      if (knows_more(landmarks[b], landmarks[a], landmark_config)) {  // and the older one's id
         std::swap(landmarks[a], landmarks[b]);
         std::swap(landmarks[a].id, landmarks[b].id);
       }
-      absorb(landmarks[a], landmarks[b], landmark_config);
+      if (!is_part_of(landmarks[b], landmarks[a], landmark_config))
+        absorb(landmarks[a], landmarks[b], landmark_config);
       landmarks.erase(landmarks.begin() + static_cast<std::ptrdiff_t>(b));
       ++merged;
     }

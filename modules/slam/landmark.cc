@@ -85,6 +85,17 @@ void see_ends(Landmark& landmark, const Gaussian& measured, double length_sd) {
   landmark.ends.see(length_sd / sds.norm() * sds);
 }
 
+/// What another landmark knows of the ends, where both have their length along the same axis.
+void see_ends_of(Landmark& landmark, const Landmark& other, int turn) {
+  const int axis = longer_axis(std::get<Cuboid>(landmark.model));
+  const int others = longer_axis(std::get<Cuboid>(other.model));
+  const double along = turned(Eigen::Vector2d(Eigen::Vector2d::Unit(others)), turn)[axis];
+  for (const Eigen::Vector2d& sds : {other.ends.best, other.ends.next}) {
+    if (along > 0.5) landmark.ends.see(sds);
+    if (along < -0.5) landmark.ends.see(sds.reverse());
+  }
+}
+
 constexpr double kElongated = 1.5;  // length to width, from which on the longer side is the length
 constexpr double kWholeSd = 0.3;    // m, of a length whose ends were both seen
 
@@ -144,7 +155,9 @@ int turn_between(const Model& model, const Model& reference, const LandmarkConfi
   if (!is_cuboid(model)) return 0;
   const auto& a = std::get<Cuboid>(model);
   const auto& b = std::get<Cuboid>(reference);
-  return nearest_turn(a, b, turns_by_quarters(a, b, config));
+  if (turns_by_quarters(a, b, config)) return nearest_turn(a, b, true);
+  const int to_length = longer_axis(a) == longer_axis(b) ? 0 : 1;
+  return (to_length + nearest_turn(turned(a, to_length), b, false)) % 4;
 }
 
 Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
@@ -203,10 +216,7 @@ void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& con
   landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
   landmark.last_stamp = std::max(landmark.last_stamp, other.last_stamp);
-  for (const Eigen::Vector2d& sds : {other.ends.best, other.ends.next}) {
-    if (turn == 0) landmark.ends.see(sds);
-    if (turn == 2) landmark.ends.see(sds.reverse());
-  }
+  if (is_cuboid(landmark.model)) see_ends_of(landmark, other, turn);
   landmark.nearest = std::min(landmark.nearest, other.nearest);
   landmark.farthest = std::max(landmark.farthest, other.farthest);
 }

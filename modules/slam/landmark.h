@@ -153,8 +153,8 @@ void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
 /// them.
 void join(Observation& a, const Observation& b);
 
-/// Quarters that turn a measured cuboid to the nearer of two headings of `reference`: of four where
-/// one of them is nearly square. 0 for cylinders.
+/// Quarters that turn a measured cuboid to the nearer of two headings of `reference`, length to
+/// length: of four where one of them is nearly square. 0 for cylinders.
 [[nodiscard]] int turn_between(const Model& model, const Model& reference,
                                const LandmarkConfig& config);
 

@@ -91,6 +91,34 @@ TEST(Duplicates, VehiclesThatCrossEachOtherAreOne) {
   EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
 }
 
+TEST(Duplicates, BoxAboutPartsTellsNothingOfAVehicleWhoseEndsWereSeen) {
+  std::vector<Landmark> landmarks = {landmark_at(0, car(0, 0.8, 0), kVehicle, 0),
+                                     landmark_at(1, car(0, 0, 0), kVehicle, 1)};
+  landmarks[0].seen = 100;
+  Landmark& whole = landmarks[1];
+  whole.seen = whole.expected = 10;
+  whole.last_stamp += from_seconds(5);
+  whole.log_odds = 20;
+  whole.ends.next.setConstant(0.1);
+  EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
+  ASSERT_EQ(landmarks.size(), 1U);
+  EXPECT_EQ(landmarks[0].id, 0);
+  EXPECT_EQ(landmarks[0].seen, 10);
+  EXPECT_EQ(landmarks[0].observations.size(), 1U);
+  EXPECT_NEAR(objects::place(landmarks[0].model).y(), 0, 1e-9);
+}
+
+TEST(Duplicates, EndsThatEitherSawAreKnownHoweverEachNamesThem) {
+  Landmark landmark = landmark_at(0, car(0, 0, 0), kVehicle);
+  Cuboid named_across = car(0, 0, std::numbers::pi / 2);
+  std::swap(named_across.size.x(), named_across.size.y());
+  Landmark other = landmark_at(1, named_across, kVehicle, 1);
+  landmark.ends.best = landmark.ends.next = {1, 0.1};
+  other.ends.best = other.ends.next = {1, 0.1};  // its y axis points to the other's −x
+  absorb(landmark, other, {});
+  EXPECT_EQ(landmark.ends.best, Eigen::Vector2d(0.1, 0.1));
+}
+
 TEST(Duplicates, NeighboursAndOtherShapesStay) {
   std::vector<Landmark> landmarks = {
       landmark_at(0, car(0, 0, 0), kVehicle), landmark_at(1, car(0, 2.4, 0), kVehicle),
