@@ -36,6 +36,18 @@ uncertainty::View view_from(const Eigen::Vector3d& eye, const Target& target,
   return uncertainty::view_of(eye, cylinder);
 }
 
+uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& target,
+                                  const ViewModel& model, const PamsConfig& config) {
+  uncertainty::Prediction prediction =
+      model.predict(target.class_id, view_from(eye, target, model));
+  if (config.faces.hidden_m > 0 && !is_cylinder(target.class_id, model)) {
+    const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
+    prediction.covariance = by_faces(prediction.covariance, in_box.head<2>(),
+                                     target.extent.size.head<2>(), config.faces);
+  }
+  return prediction;
+}
+
 Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
   const double place = config.prior_place_m * config.prior_place_m;
   const double size = config.prior_size_m * config.prior_size_m;
@@ -53,8 +65,7 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
   };
   std::map<int, Cell> cells;
   for (const Looks::Look& look : looks.all()) {
-    const uncertainty::View view = view_from(look.eye, target, model);
-    const uncertainty::Prediction prediction = model.predict(target.class_id, view);
+    const uncertainty::Prediction prediction = predicted(look.eye, target, model, config);
     Cell& cell = cells[prediction.cell];
     cell.seconds += look.seconds;
     cell.weighted += look.seconds * information(prediction, look.flown_m - looks.first_m(), config);

@@ -14,6 +14,10 @@ namespace saker::active {
 [[nodiscard]] uncertainty::View view_from(const Eigen::Vector3d& eye, const Target& target,
                                           const ViewModel& model);
 
+/// What a view from `eye` (world) tells of the target.
+[[nodiscard]] uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& target,
+                                                const ViewModel& model, const PamsConfig& config);
+
 /// What the flight so far tells of one target: the paper's recursion over the cells of the model
 /// from which it was in view for a dwell. However long that was, a cell counts once: with the mean
 /// information of its views.

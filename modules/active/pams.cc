@@ -180,8 +180,7 @@ std::vector<Sight> PamsPolicy::sights(const Viewpoint& from, const Choice& choic
   for (int object = 0; object < static_cast<int>(choice.together.size()); ++object) {
     const Target& target = targets_[choice.together[object]];
     if (object > 0 && !sees(eye, from.yaw, target, config_.view.margin_deg)) continue;
-    const uncertainty::View view = view_from(eye, target, model_);
-    const uncertainty::Prediction prediction = model_.predict(target.class_id, view);
+    const uncertainty::Prediction prediction = predicted(eye, target, model_, pams_);
     if (choice.known[object].counted(prediction.cell)) continue;
     told.push_back({object, prediction.cell, prediction.covariance});
   }

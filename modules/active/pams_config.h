@@ -1,5 +1,6 @@
 #pragma once
 
+#include "active/faces.h"
 #include "active/region_samples.h"
 #include "core/config.h"
 
@@ -15,6 +16,7 @@ struct PamsConfig {
   double dwell_s = 1.5;
   double prior_place_m = 0.5;
   double prior_size_m = 0.5;
+  FacesConfig faces;
   bool common_counts = false;
   double enough_entropy = -10;
   double least_probability = 0.8;
@@ -35,6 +37,7 @@ struct PamsConfig {
     PamsConfig config;
     config.sampling = Sampling::uniform;
     config.beyond_region = true;
+    config.faces.hidden_m = 0.25;
     config.common_counts = true;
     config.price_per_s = 0.3;
     config.at_once = 4;
@@ -59,6 +62,7 @@ struct PamsConfig {
             "sd of x and y before the first view: half a car's width");
     v.field("prior_size_m", prior_size_m, {0.01, 10}, "m",
             "sd of length and width before it: cars differ by this");
+    v.group("faces", faces, "what a view tells of each face of a box");
     v.field(
         "common_counts", common_counts, "",
         "whether the error that all views share is part of the entropy: it cannot be flown off");

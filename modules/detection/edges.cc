@@ -6,10 +6,6 @@
 namespace saker::detection {
 namespace {
 
-/// Of what the edge of a face scatters by that is seen over the vehicle, one that is seen from
-/// beside: an outline, which shows the lower part too, but rounded.
-constexpr double kOutline = 0.5;
-
 double nearest_range(const Footprint& footprint, const std::vector<Eigen::Vector3d>& sensors) {
   const Eigen::Vector2d x(std::cos(footprint.direction), std::sin(footprint.direction));
   const Eigen::Vector2d middle = 0.5 * (footprint.low + footprint.high);
@@ -90,7 +86,8 @@ Edges edges_of(const Footprint& footprint, const Sight& sight, const VehicleNois
       const bool lies_farther = k == 0 && std::isfinite(edge.hidden_m);
       const double share = (1 - looked[end]) * noise.beyond.hidden_share;
       const double outward = lies_farther ? share * edge.hidden_m : 0;
-      const double setback = (1 - looked[end]) * std::lerp(kOutline, 1.0, looked[1 - end]);
+      const double setback =
+          (1 - looked[end]) * std::lerp(noise.setback.outline, 1.0, looked[1 - end]);
       edge.position = end == 0 ? footprint.low[k] - outward : footprint.high[k] + outward;
       edge.sd = seen_sd + setback * noise.setback.sd_m +
                 std::min(edge.hidden_m / std::sqrt(12.0), noise.unseen_m);

@@ -71,6 +71,7 @@ struct GapConfig {
 struct SetbackConfig {
   double mean_m = 0.1;
   double sd_m = 0.1;
+  double outline = 0.5;
   double outside_m = 1;
 
   template <class Visitor>
@@ -78,6 +79,9 @@ struct SetbackConfig {
     v.field("mean_m", mean_m, {0, 1}, "m",
             "by which upper edges stand back behind the lower part: sides lean in, screens slope");
     v.field("sd_m", sd_m, {0, 1}, "m", "its standard deviation among vehicles and views");
+    v.field("outline", outline, {0, 1}, "",
+            "of that deviation for a face that is seen from beside: an outline, which shows the "
+            "lower part too, but rounded");
     v.field("outside_m", outside_m, {0.01, 20}, "m",
             "that a sensor is outside of a face's plane: it looks at the face");
   }

@@ -123,7 +123,7 @@ class Graph {
     ceres::Manifold* manifold = &cylinder_manifold_;
     if (is_cuboid(landmark.model)) manifold = &cuboid_manifold_;
     problem_.AddParameterBlock(parameters, parameter_count(landmark.model), manifold);
-    const std::vector<double> weights = observation_weights(landmark);
+    const std::vector<double> weights = observation_weights(landmark, config_.length_axis);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const Observation& observation = landmark.observations[i];
       const auto c = static_cast<std::size_t>(observation.chain);
@@ -232,7 +232,7 @@ double robust_cost(const Model& model, std::span<const Weighted> all, const Grap
 /// All that was measured of a landmark, in the world frame by the estimated poses.
 std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains,
                                    const GraphConfig& config) {
-  const std::vector<double> weights = observation_weights(landmark);
+  const std::vector<double> weights = observation_weights(landmark, config.length_axis);
   std::vector<Weighted> all;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const Observation& observation = landmark.observations[i];

@@ -15,6 +15,7 @@ struct GraphConfig {
   double function_tolerance = 1e-5;
   double robust_scale = 3;
   HiddenEndConfig hidden_ends;
+  LengthAxisConfig length_axis;
   int movable_keyframes = 600;
 
   template <class Visitor>
@@ -28,6 +29,7 @@ struct GraphConfig {
         "Cauchy's scale on whitened errors of objects: half weight at 9, the mean of nine degrees "
         "of freedom; parts taken for wholes, far from where covariances hold, weigh little");
     v.group("hidden_ends", hidden_ends, "ends of vehicles that were hidden");
+    v.group("length_axis", length_axis, "windows that took a side for the length are left out");
     v.field("movable_keyframes", movable_keyframes, {1, 100000}, "",
             "the newest so many move; older ones are held where they are: what a cycle costs does "
             "not grow for ever. Ten minutes at 1 m/s");

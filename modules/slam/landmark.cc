@@ -96,18 +96,15 @@ void see_ends_of(Landmark& landmark, const Landmark& other, int turn) {
   }
 }
 
-constexpr double kElongated = 1.5;  // length to width, from which on the longer side is the length
-constexpr double kWholeSd = 0.3;    // m, of a length whose ends were both seen
-
 /// The axis of a cuboid's length by the windows that showed it from end to end; none did: −1.
-int length_axis(const Landmark& landmark) {
+int length_axis(const Landmark& landmark, const LengthAxisConfig& config) {
   if (!is_cuboid(landmark.model)) return -1;
   std::array<int, 2> windows{};
   for (const Observation& o : landmark.observations) {
     const auto& cuboid = std::get<Cuboid>(o.measured.model);
     const int axis = longer_axis(cuboid);
-    const bool whole = std::sqrt(o.measured.covariance(6 + axis, 6 + axis)) <= kWholeSd;
-    if (whole && elongation(cuboid) >= kElongated)
+    const bool whole = std::sqrt(o.measured.covariance(6 + axis, 6 + axis)) <= config.whole_sd_m;
+    if (whole && elongation(cuboid) >= config.elongation)
       windows[static_cast<std::size_t>(axis)] += o.windows;
   }
   if (windows[0] == windows[1]) return -1;
@@ -116,10 +113,10 @@ int length_axis(const Landmark& landmark) {
 
 /// Whether a window took a side of the vehicle for its length: where its box is nearly square, by
 /// what it knows less well, as nobody saw how long it is.
-bool contradicts(const Observation& observation, int length_axis) {
+bool contradicts(const Observation& observation, int length_axis, double least_elongation) {
   if (length_axis < 0) return false;
   const auto& cuboid = std::get<Cuboid>(observation.measured.model);
-  if (elongation(cuboid) >= kElongated) return longer_axis(cuboid) != length_axis;
+  if (elongation(cuboid) >= least_elongation) return longer_axis(cuboid) != length_axis;
   const Eigen::MatrixXd& covariance = observation.measured.covariance;
   return covariance(6 + length_axis, 6 + length_axis) <
          covariance(7 - length_axis, 7 - length_axis);
@@ -232,16 +229,19 @@ void remember(Landmark& landmark, const Observation& observation) {
   }
 }
 
-std::vector<double> observation_weights(const Landmark& landmark) {
-  const int axis = length_axis(landmark);
+std::vector<double> observation_weights(const Landmark& landmark, const LengthAxisConfig& config) {
+  const int axis = length_axis(landmark, config);
+  const auto left_out = [&](const Observation& o) {
+    return contradicts(o, axis, config.elongation);
+  };
   std::map<int, int> windows;
   for (const Observation& o : landmark.observations) {
-    if (!contradicts(o, axis)) windows[o.cell] += o.windows;
+    if (!left_out(o)) windows[o.cell] += o.windows;
   }
   std::vector<double> weights;
   for (const Observation& o : landmark.observations) {
     const double share = o.cell < 0 ? 1 : static_cast<double>(o.windows) / windows[o.cell];
-    weights.push_back(contradicts(o, axis) ? 0 : share);
+    weights.push_back(left_out(o) ? 0 : share);
   }
   return weights;
 }

@@ -74,6 +74,22 @@ struct LandmarkConfig {
   }
 };
 
+/// Which axis of a cuboid is its length.
+struct LengthAxisConfig {
+  double elongation = 1.5;
+  double whole_sd_m = 0.3;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field(
+        "elongation", elongation, {1, 10}, "",
+        "of length to width, from which on the longer side is the length: parts of vehicles are "
+        "squarer");
+    v.field("whole_sd_m", whole_sd_m, {0.01, 10}, "m",
+            "standard deviation of a length up to which its window saw both ends");
+  }
+};
+
 /// A measurement on its way into the map: in the newest keyframe's frame, with the covariance it
 /// has there.
 struct Candidate {
@@ -171,7 +187,8 @@ void remember(Landmark& landmark, const Observation& observation);
 
 /// What each weighs: windows of a view cell share their error and weigh as one together, others one
 /// each; those that took a vehicle's side for its length nothing, once others showed both its ends.
-[[nodiscard]] std::vector<double> observation_weights(const Landmark& landmark);
+[[nodiscard]] std::vector<double> observation_weights(const Landmark& landmark,
+                                                      const LengthAxisConfig& config);
 
 [[nodiscard]] std::vector<double> class_probability(const Landmark& landmark);
 

@@ -106,15 +106,15 @@ Window piece(int keyframe) { return {keyframe, 3, 1.9}; }
 TEST(ViewCell, AWindowThatTookASideForTheLengthWeighsNothingBesideWholeOnes) {
   Landmark landmark = measured({{0, 2, 4.4}, {1, 2, 4.4}, piece(2)});
   landmark.observations[2].measured.covariance(7, 7) = 1;
-  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5, 0}));
+  EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.5, 0.5, 0}));
   landmark.observations[2].measured.covariance(6, 6) = 4;
-  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5, 1}));
+  EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.5, 0.5, 1}));
 }
 
 TEST(ViewCell, WithoutAWholeWindowNoneIsLeftOut) {
   Landmark landmark = measured({piece(0), piece(1)});
   landmark.observations[1].measured.covariance(7, 7) = 1;
-  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.5, 0.5}));
 }
 
 TEST(ViewCell, AShortWindowMayHideAnEndUnlessTheModelCorrectedIt) {
@@ -151,7 +151,7 @@ TEST(ViewCell, WhatIsHandedOverStaysInItsCell) {
   const Chain chain{&poses};
   (void)refine(landmark, {&chain, 1}, quadratic());
   hand_over(landmark, poses[1], poses[0], quadratic());
-  EXPECT_EQ(observation_weights(landmark), (std::vector<double>{0.6, 0.4, 1}));
+  EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.6, 0.4, 1}));
   (void)refine(landmark, {&chain, 1}, quadratic());
   EXPECT_NEAR(length(landmark), (4.4 + 5.0) / 2, 1e-6);
 }
@@ -180,7 +180,7 @@ TEST(ViewCell, MergedLandmarksShareTheirCells) {
   EXPECT_EQ(a.observations[1].windows, 3);
   EXPECT_NEAR(std::get<Cuboid>(a.observations[1].measured.model).size.x(), 13.6 / 3, 1e-6);
   EXPECT_NEAR(a.observations[1].measured.covariance(6, 6), kVariance, 1e-6);
-  EXPECT_EQ(observation_weights(a), (std::vector<double>{0.25, 0.75, 1}));
+  EXPECT_EQ(observation_weights(a, {}), (std::vector<double>{0.25, 0.75, 1}));
 }
 
 }  // namespace
