@@ -163,7 +163,9 @@ TEST_P(BothPolicies, WithMotionThatRefusesEverythingEnd) {
 }
 
 TEST_P(BothPolicies, DoNotOfferARefusedViewpointAgainNorOneBesideIt) {
-  PamsFlight flight(GetParam(), {car(20, 0)});
+  PamsConfig config = GetParam();
+  config.price_per_s = 0;
+  PamsFlight flight(config, {car(20, 0)});
   const Viewpoint refused = *flight.decide().goal;
   flight.policy->refuse(refused.id, "no path");
   flight.decide();
