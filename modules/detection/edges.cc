@@ -52,13 +52,15 @@ objects::Cuboid beyond(const Footprint& footprint, int k, int end, const BeyondC
                  {config.lowest_m, config.highest_m});
 }
 
-/// How far beyond an edge space is seen to be free; infinite where it is not seen.
+/// From how far beyond an edge and its noise (`near_m`) on space is seen to be free; infinite where
+/// it is not seen.
 double free_from(const Footprint& footprint, int k, int end, const Sight& sight,
                  const BeyondConfig& config) {
   const objects::Cuboid box = beyond(footprint, k, end, config);
-  // A side of which one face alone was seen is thin.
-  const double most_way_m = k == 0 ? config.far_m : 0.5 * box.size.y();
-  return sight.nearest(box, config.beams, std::min(config.least_way_m, most_way_m));
+  double least_way_m = config.least_way_m;
+  // Where one face alone was seen, a side is thin. An end is not: corners are rounded.
+  if (k == 1) least_way_m = std::min(least_way_m, 0.5 * box.size.y());
+  return sight.nearest(box, config.beams, least_way_m);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace saker::detection {
                                 const SetbackConfig& config);
 
 struct FootprintEdge : Edge {
-  double hidden_m = 0;  ///< so much farther out it may lie; infinite where nothing was seen
+  double hidden_m = 0;  ///< beyond its noise it may lie farther out; infinite: nothing tells
 };
 
 using Edges = std::array<std::array<FootprintEdge, 2>, 2>;  ///< [axis][low, high]

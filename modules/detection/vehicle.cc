@@ -84,8 +84,9 @@ Rectangle rectangle(const Footprint& footprint, const Sight& sight, const Vehicl
     const double variance = std::pow(prior.sd, 2) + std::pow(low.sd, 2) + std::pow(high.sd, 2);
     result.cost += std::pow(unlike(size, low.hidden_m + high.hidden_m, prior), 2) / variance +
                    std::log(variance);
-    low.sd += shortfall(size, prior);
-    high.sd += shortfall(size, prior);
+    const double missing = shortfall(size, prior);
+    low.sd += missing;
+    high.sd += missing;
     result.axis[k] = fuse_edges(low, high, prior, seen_sd);
     const SizePrior shared = {prior.mean, prior.sd * std::sqrt(config.prior_windows)};
     result.axis[k].covariance = fuse_edges(low, high, shared, seen_sd).covariance;

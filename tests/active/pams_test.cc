@@ -163,9 +163,7 @@ TEST_P(BothPolicies, WithMotionThatRefusesEverythingEnd) {
 }
 
 TEST_P(BothPolicies, DoNotOfferARefusedViewpointAgainNorOneBesideIt) {
-  PamsConfig config = GetParam();
-  config.price_per_s = 0;
-  PamsFlight flight(config, {car(20, 0)});
+  PamsFlight flight(GetParam(), {car(12, 0)});
   const Viewpoint refused = *flight.decide().goal;
   flight.policy->refuse(refused.id, "no path");
   flight.decide();
