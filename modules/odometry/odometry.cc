@@ -120,6 +120,11 @@ void Odometry::thin(const lidar::Scan& scan) {
   filter_.thin(scan.points, config_.map_sample_m, config_.min_range_m, config_.max_range_m,
                map_sample_);
   filter_.thin(scan.points, map_sample_, config_.registration_sample_m, registration_sample_);
+  const auto coarse_points = static_cast<std::size_t>(config_.coarse_points);
+  const std::size_t stride = std::max<std::size_t>(1, registration_sample_.size() / coarse_points);
+  coarse_sample_.clear();
+  for (std::size_t i = 0; i < registration_sample_.size(); i += stride)
+    coarse_sample_.push_back(registration_sample_[i]);
 }
 
 void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
@@ -139,7 +144,7 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
   for (int round = 0; round < rounds && fit.reason == OdometryReason::none; ++round) {
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
     fit.sweep = motion_.sweep(prediction, T_odom_lidar, span, imu_.samples());
-    deskew(scan, fit.sweep, registration_sample_);
+    deskew(scan, fit.sweep, round + 1 < rounds ? coarse_sample_ : registration_sample_);
     fit.registration =
         registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
     if (!registration_.enough(scratch_.size()))

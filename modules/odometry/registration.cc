@@ -36,11 +36,15 @@ Registration::NormalEquations Registration::linearise(const SE3& T, double gate_
   const Eigen::Matrix3d R = T.linear();
   const double kernel2 = kernel_m * kernel_m;
   for (const auto& [point, plane] : matches_) {
-    const double r = plane.normal.dot(T * point - plane.point);
+    const Eigen::Vector3d offset = T * point - plane.point;
+    const double r = plane.normal.dot(offset);
     if (std::abs(r) > gate_m) continue;
     distances_.push_back(static_cast<float>(std::abs(r)));
     const double robust = kernel2 / (kernel2 + r * r);  // Geman-McClure: w = (k² / (k² + r²))²
-    const double w = robust * robust / (config_.noise_m * config_.noise_m + plane.variance);
+    const double noise = config_.noise_m * config_.noise_m + plane.variance;
+    const double tilted =
+        noise * config_.plane_correlation * (plane.tilt.transpose() * offset).squaredNorm();
+    const double w = robust * robust / (noise + tilted);
     const Eigen::Vector3d n = R.transpose() * plane.normal;
     Vector6d J;  // d r / d [rotation, translation], right
     J.head<3>() = point.cross(n);

@@ -17,6 +17,7 @@ struct RegistrationConfig {
   double noise_m = 0.02;
   double least_kernel_m = 0.06;
   double correlation = 8;
+  double plane_correlation = 32;
   int min_inliers = 60;
   double min_inlier_ratio = 0.05;
   double max_rms_m = 0.15;
@@ -36,6 +37,9 @@ struct RegistrationConfig {
             "least width of the robust kernel: three times the noise");
     v.field("correlation", correlation, {1, 1000}, "",
             "points per independent residual: neighbours share their plane's error");
+    v.field("plane_correlation", plane_correlation, {1, 1000}, "",
+            "points per independent one of those that a plane was fitted to: each scan leaves some "
+            "ten in a voxel, with one error of its pose");
     v.field("min_inliers", min_inliers, {6, 1e5}, "",
             "fewer points on planes of the map: not registered");
     v.field("min_inlier_ratio", min_inlier_ratio, {0, 1}, "",
@@ -66,7 +70,9 @@ struct RegistrationResult {
 
 /// Point-to-plane ICP with a prior: the pose that maximises N(prior) · Π robust N(distance to the
 /// map's plane | 0, σ²). In directions that the planes leave open the prior decides, and the
-/// covariance says so.
+/// covariance says so. σ² is the noise of both and what the plane's normal may be off by at the
+/// point's distance from its middle (Yuan et al., "VoxelMap", RA-L 2022, sec. III): over bare
+/// ground, where little but the normals holds the pose sideways, the scan slipped without it.
 ///
 /// Gauss-Newton; Geman-McClure weights, their width from the median distance of the last step
 /// (Huber, "Robust Statistics", sec. 5.1), closing in from the gate. The planes of the points are

@@ -56,6 +56,10 @@ void VoxelMap::fit(Voxel& voxel) const {
   voxel.mean = mean.cast<float>();
   voxel.normal = solver.eigenvectors().col(0).cast<float>();
   voxel.variance = static_cast<float>(std::max(variance[0], 0.0));
+  for (int i = 0; i < 2; ++i) {
+    const double spread = std::sqrt(variance[i + 1] * voxel.count);
+    voxel.tilt.col(i) = (solver.eigenvectors().col(i + 1) / spread).cast<float>();
+  }
 }
 
 VoxelMap::Voxel* VoxelMap::plane_at(const Eigen::Vector3i& cell) {
@@ -68,30 +72,24 @@ VoxelMap::Voxel* VoxelMap::plane_at(const Eigen::Vector3i& cell) {
 
 std::optional<Plane> VoxelMap::nearest_plane(const Eigen::Vector3d& point, bool wide) {
   const auto plane = [](const Voxel& v) {
-    return Plane{v.corner + v.mean.cast<double>(), v.normal.cast<double>(), v.variance};
+    return Plane{v.corner + v.mean.cast<double>(), v.normal.cast<double>(), v.variance,
+                 v.tilt.cast<double>()};
   };
-  const double voxels_per_m = 1 / config_.voxel_m;
-  const Eigen::Vector3i own = voxel_cell(point, voxels_per_m);
+  const Eigen::Vector3i own = voxel_cell(point, 1 / config_.voxel_m);
   if (const Voxel* voxel = plane_at(own)) return plane(*voxel);
+  if (!wide) return std::nullopt;
 
-  // The 2 × 2 × 2 block whose centre is nearest to the point, or the 3 × 3 × 3 block about its
-  // voxel.
-  const Eigen::Vector3i half =
-      voxel_cell(point - Eigen::Vector3d::Constant(config_.voxel_m / 2), voxels_per_m);
-  const Eigen::Vector3i low = wide ? Eigen::Vector3i(own.array() - 1) : half;
-  const int width = wide ? 3 : 2;
   const Voxel* best = nullptr;
   double best_distance2 = std::numeric_limits<double>::infinity();
-  for (int x = 0; x < width; ++x)
-    for (int y = 0; y < width; ++y)
-      for (int z = 0; z < width; ++z) {
-        const Voxel* voxel = plane_at(low + Eigen::Vector3i(x, y, z));
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const Voxel* voxel = plane_at(own + Eigen::Vector3i(x, y, z));
         if (!voxel) continue;
         const double distance2 = (voxel->corner + voxel->mean.cast<double>() - point).squaredNorm();
-        if (distance2 < best_distance2) {
-          best = voxel;
-          best_distance2 = distance2;
-        }
+        if (distance2 >= best_distance2) continue;
+        best = voxel;
+        best_distance2 = distance2;
       }
   if (!best) return std::nullopt;
   return plane(*best);

@@ -29,7 +29,7 @@ struct VoxelMapConfig {
             "voxels farther from the sensor are dropped");
     v.field("max_age_s", max_age_s, {1, 3600}, "s", "voxels not seen for so long are dropped");
     v.field("max_voxels", max_voxels, {1000, 4e6}, "",
-            "ceiling of the map; the longest unseen go first; 110 B each");
+            "ceiling of the map; the longest unseen go first; 150 B each");
     v.field("max_points", max_points, {10, 1e6}, "",
             "a voxel takes no more points: its plane no longer moves, nor drifts");
     v.field("min_points", min_points, {4, 100}, "", "points that make a plane");
@@ -45,6 +45,9 @@ struct Plane {
   Eigen::Vector3d point;   ///< mean of what was seen
   Eigen::Vector3d normal;  ///< unit
   double variance = 0;     ///< of the points along the normal, m²
+  /// What the fit leaves open of the normal: with independent points it is off by
+  /// sqrt(variance) · tilt · N(0, I); 1/m.
+  Eigen::Matrix<double, 3, 2> tilt = Eigen::Matrix<double, 3, 2>::Zero();
 };
 
 /// The local map: for each voxel the mean and the covariance of the points seen in it, hence a
@@ -65,8 +68,9 @@ class VoxelMap {
   /// longest.
   void prune(const Eigen::Vector3d& centre, Time now);
 
-  /// The plane of the point's own voxel, else the one with the nearest mean in the voxels around:
-  /// the seven on the point's side, or all 26 when `wide`.
+  /// The plane of the point's own voxel; when `wide`, else the one with the nearest mean in the 26
+  /// voxels around. Planes carried on beyond their voxel hold the scan back: new ground lies ahead
+  /// of what was seen, always on the same side.
   [[nodiscard]] std::optional<Plane> nearest_plane(const Eigen::Vector3d& point, bool wide);
 
  private:
@@ -83,6 +87,7 @@ class VoxelMap {
     float variance = 0;
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    Eigen::Matrix<float, 3, 2> tilt = Eigen::Matrix<float, 3, 2>::Zero();
   };
 
   void fit(Voxel& voxel) const;

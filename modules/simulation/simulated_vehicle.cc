@@ -1,6 +1,7 @@
 #include "simulation/simulated_vehicle.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -21,6 +22,13 @@ constexpr std::size_t kMostScans = 1000;
 constexpr float kDeepest = 200;         ///< m below the vehicle where ground is looked for
 constexpr double kHardTouchdown = 2.0;  ///< m/s: harder ones break something
 
+double lowest_point(const World& world) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3f& vertex : world.mesh.vertices)
+    lowest = std::min(lowest, static_cast<double>(vertex.z()));
+  return lowest;
+}
+
 /// Ticks between two readings.
 int period_of(double rate_hz, const std::string& key) {
   const int ticks = static_cast<int>(std::lround(kTicksPerSecond / rate_hz));
@@ -35,6 +43,7 @@ SimulatedVehicle::SimulatedVehicle(const MissionConfig& config, std::uint64_t se
     : config_(core::checked(config, "mission")),
       site_(build_mission_world(config_, seed, place)),
       caster_(site_.world()),
+      plain_m_(lowest_point(site_.world())),
       T_body_lidar_(lidar::mount_pose(config_.mount)),
       body_(config_.airframe, site_.T_sim_world),
       wind_(config_.wind, core::Rng(own_seed).fork(31)),
@@ -114,7 +123,7 @@ void SimulatedVehicle::at_50_hz() {
   if (truth().collisions > 0) state_->faults |= kCollision;
 }
 
-/// What each foot would stand on.
+/// What each foot would stand on: beyond the world's edge a plain.
 void SimulatedVehicle::probe_ground() {
   std::array<Shot, 4> shots;
   const auto feet = body_.feet();
@@ -125,7 +134,7 @@ void SimulatedVehicle::probe_ground() {
   }
   caster_.cast(shots, kDeepest);
   for (std::size_t i = 0; i < 4; ++i)
-    ground_[i] = from - (shots[i].hit ? shots[i].distance : kDeepest);
+    ground_[i] = shots[i].hit ? from - shots[i].distance : plain_m_;
 }
 
 void SimulatedVehicle::watch_contacts() {

@@ -88,6 +88,7 @@ class SimulatedVehicle {
   MissionConfig config_;
   MissionWorld site_;
   RayCaster caster_;
+  double plain_m_;  // height of the plain about the world: its lowest point
   SE3 T_body_lidar_;
   Quadrotor body_;
   Wind wind_;

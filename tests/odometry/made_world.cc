@@ -23,10 +23,40 @@ double cast_box(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vect
   return near <= far && near > 0 ? near : kInfinity;
 }
 
+/// Of unit sd.
+double wave_height(const Eigen::Vector3d& p) {
+  struct Wave {
+    double along, across, phase;  // rad/m, rad/m, rad
+  };
+  static constexpr Wave kWaves[] = {{0.7, 0.4, 1.0},  {-0.9, 1.1, 2.5}, {1.7, 0.2, 0.3},
+                                    {0.3, -1.5, 4.0}, {1.2, 1.2, 5.1},  {-0.4, 0.6, 3.3}};
+  double sum = 0;
+  for (const Wave& w : kWaves) sum += std::sin(w.along * p.x() + w.across * p.y() + w.phase);
+  return sum * std::sqrt(2.0 / std::size(kWaves));
+}
+
+double cast_ground(double roughness_m, const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction) {
+  if (direction.z() >= 0) return kInfinity;
+  double range = -origin.z() / direction.z();
+  if (roughness_m == 0) return range;
+  constexpr double kStep = 0.2;  // m; then half of it again and again
+  const auto above = [&](double r) {
+    const Eigen::Vector3d p = origin + r * direction;
+    return p.z() - roughness_m * wave_height(p);
+  };
+  const double highest = roughness_m * std::sqrt(2.0 * 6);  // all six waves at once
+  double far = std::max(0.0, -(origin.z() - highest) / direction.z());
+  while (above(far) > 0) far += kStep;
+  double near = far - kStep;
+  for (int i = 0; i < 12; ++i) (above((near + far) / 2) > 0 ? near : far) = (near + far) / 2;
+  return far;
+}
+
 }  // namespace
 
 double MadeWorld::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-  double range = ground && direction.z() < 0 ? -origin.z() / direction.z() : kInfinity;
+  double range = ground ? cast_ground(roughness_m, origin, direction) : kInfinity;
   for (const Box& box : boxes) range = std::min(range, cast_box(box, origin, direction));
   return range;
 }
@@ -47,6 +77,8 @@ MadeWorld street() {
 MadeWorld corridor() {
   return {{{{-1e4, 3, 0}, {1e4, 4, 5}}, {{-1e4, -4, 0}, {1e4, -3, 5}}}, true};
 }
+
+MadeWorld bare_ground() { return {{}, true, 0.04}; }
 
 lidar::Scan scan(const MadeWorld& world, const MadeSensor& sensor, const Motion& motion,
                  Time stamp) {

@@ -12,10 +12,11 @@ struct Box {
   Eigen::Vector3d low, high;
 };
 
-/// Ground at z = 0 and boxes, cast exactly.
+/// Ground about z = 0 and boxes, cast exactly.
 struct MadeWorld {
   std::vector<Box> boxes;
   bool ground = true;
+  double roughness_m = 0;  ///< sd of the ground's height, in waves of 3 to 9 m
 
   /// Distance along the unit direction; infinite when nothing is hit.
   [[nodiscard]] double cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
@@ -25,6 +26,9 @@ struct MadeWorld {
 [[nodiscard]] MadeWorld street();
 /// Two walls along x without end, and the ground: nothing says how far one has come.
 [[nodiscard]] MadeWorld corridor();
+
+/// A rough field without end and nothing on it.
+[[nodiscard]] MadeWorld bare_ground();
 
 using Motion = std::function<SE3(Time)>;  ///< T_world_lidar
 

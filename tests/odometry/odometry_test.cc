@@ -73,6 +73,16 @@ TEST(Odometry, WeavingFlightWithImuAndGyroBiasStaysWithinCentimetres) {
   EXPECT_LT(flight.worst_rotation_rad, 0.005);
 }
 
+TEST(Odometry, OverBareRoughGroundItDriftsByLessThanAHundredthOfTheWay) {
+  MadeSensor sensor;
+  sensor.range_noise_m = 0.02;
+  sensor.max_range_m = 40;
+  const Flight flight =
+      fly(testing::bare_ground(), sensor, testing::straight(3), 150, true, {0.01, -0.02, 0.015});
+  EXPECT_EQ(flight.not_ok, 0);
+  EXPECT_LT(flight.worst_position_m, 0.45);  // 1 % of the way
+}
+
 TEST(Odometry, FirstFrameIsTheFirstScansLidarFrameWithoutImu) {
   Odometry odometry{OdometryConfig{}};
   const auto first =

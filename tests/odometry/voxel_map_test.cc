@@ -57,12 +57,33 @@ TEST(VoxelMap, LinesAndBlobsAreNoPlanes) {
   EXPECT_FALSE(map.nearest_plane({12.3, 0.3, 0.3}, true));
 }
 
-TEST(VoxelMap, WideSearchReachesAVoxelFartherThanNarrowSearch) {
+TEST(VoxelMap, OnlyAWideSearchReachesBeyondThePointsOwnVoxel) {
   VoxelMap map(VoxelMapConfig{});  // voxels of 0.6 m
   map.insert(disc({0.9, 0.3, 0.3}, {1, 0, 0}, 0.2, 0, 200), 0);
-  EXPECT_FALSE(map.nearest_plane({0.1, 0.3, 0.3}, false));
-  EXPECT_TRUE(map.nearest_plane({0.1, 0.3, 0.3}, true));
-  EXPECT_TRUE(map.nearest_plane({0.5, 0.3, 0.3}, false));
+  EXPECT_FALSE(map.nearest_plane({0.5, 0.3, 0.3}, false));
+  EXPECT_TRUE(map.nearest_plane({0.5, 0.3, 0.3}, true));
+  EXPECT_TRUE(map.nearest_plane({0.7, 0.3, 0.3}, false));
+}
+
+TEST(VoxelMap, ANormalIsKnownAsWellAsItsFitSays) {
+  constexpr double kNoise = 0.005;
+  double sum = 0;
+  constexpr int kTimes = 200;
+  for (int i = 0; i < kTimes; ++i) {
+    VoxelMap map(VoxelMapConfig{});
+    core::Rng rng(static_cast<std::uint64_t>(i));
+    std::vector<Eigen::Vector3d> points;
+    for (int k = 0; k < 100; ++k)
+      points.emplace_back(rng.uniform(0.05, 0.55), rng.uniform(0.1, 0.5),
+                          0.3 + rng.normal(0, kNoise));
+    map.insert(points, 0);
+    const auto plane = map.nearest_plane({0.3, 0.3, 0.3}, false);
+    ASSERT_TRUE(plane);
+    const Eigen::Vector3d off = plane->normal / plane->normal.z() - Eigen::Vector3d::UnitZ();
+    const Eigen::Matrix3d covariance = plane->variance * plane->tilt * plane->tilt.transpose();
+    sum += off.head<2>().dot(covariance.topLeftCorner<2, 2>().inverse() * off.head<2>()) / 2;
+  }
+  EXPECT_NEAR(sum / kTimes, 1, 0.25);
 }
 
 TEST(VoxelMap, DropsWhatIsFarOrOld) {

@@ -201,6 +201,18 @@ TEST(SimulatedVehicle, WithoutOdometryItDescendsAndWithFrozenOdometryToo) {
   }
 }
 
+TEST(SimulatedVehicle, BeyondTheWorldsEdgeItLandsOnAPlain) {
+  Pilot pilot(small_sensor(), 3);
+  ASSERT_TRUE(pilot.take_off(3));
+  pilot.fly_to({0, 0, 20}, 4);
+  pilot.fly_to({0, 150, 20}, 8);
+  ASSERT_TRUE(pilot.command(CommandKind::land));
+  pilot.run(50);
+  EXPECT_EQ(pilot.vehicle_state.mode, VehicleMode::idle);
+  EXPECT_FALSE(pilot.vehicle.truth().airborne);
+  EXPECT_NEAR(pilot.vehicle.truth().T_world_body.translation().y(), 150, 5);
+}
+
 TEST(SimulatedVehicle, AnEmptyBatteryEndsTheFlight) {
   MissionConfig config = small_sensor();
   config.battery.capacity_wh = 1.2;
