@@ -11,7 +11,8 @@ namespace saker::active {
 namespace {
 
 void check_pams(const PamsConfig& pams, const GoalsConfig& goals, const std::string& name) {
-  const double prior = 2 * std::log(pams.prior_place_m) + 2 * std::log(pams.prior_size_m);
+  const double prior = 2 * std::log(pams.prior_place_m) + std::log(pams.prior_length_m) +
+                       std::log(pams.prior_width_m);
   if (pams.enough_entropy >= prior) {
     throw Error("active." + name + ".enough_entropy: " + std::to_string(pams.enough_entropy) +
                 ", expected less than the prior's " + std::to_string(prior) +

@@ -115,9 +115,18 @@ void Discovery::dismiss_absent() {
     const bool vain = target.status == TargetStatus::visited && !target.absent;
     if (target.mapped() || !(vain || target.status == TargetStatus::pending)) continue;
     double& absent_s = absent_s_[static_cast<std::size_t>(i)];
-    absent_s = nothing_else_at(target.prior_place) ? absent_s + elapsed_s_ : 0;
+    const bool absent = !may_be_incomplete(target) && nothing_else_at(target.prior_place);
+    absent_s = absent ? absent_s + elapsed_s_ : 0;
     if (absent_s > config_.discovery.absent_s) list.dismiss(i, why_absent(target));
   }
+}
+
+bool Discovery::may_be_incomplete(const Target& target) const {
+  return map_ && std::ranges::any_of(map_->incomplete, [&](const MapObject& object) {
+           const Eigen::Vector3d between = objects::place(object.model) - target.prior_place;
+           return object.class_id == target.class_id &&
+                  between.head<2>().norm() <= config_.targets.gate_m;
+         });
 }
 
 /// Nothing but what is mapped stands there, seen from so near that whatever is in the target's gate

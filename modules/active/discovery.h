@@ -17,7 +17,8 @@ namespace saker::active {
 ///
 /// A mapped object of a target class that is no target's, has been in its place for a while and
 /// lies in the geofence becomes a target. A target that has no object, while nothing but what is
-/// mapped stands at its place, is dismissed: it is not there, or the same as another. When the
+/// mapped stands at its place and no incomplete object near it, is dismissed: it is not there, or
+/// the same as another. When the
 /// policy has nothing left, the geofence is swept, if so configured, and the policy goes on
 /// whenever the sweep finds a target. All of that is finite: targets have a ceiling and are
 /// dismissed once, a stop of the sweep is closed once, and each has a deadline.
@@ -50,6 +51,7 @@ class Discovery : public Policy {
   [[nodiscard]] bool stray(const objects::MapObject& object) const;
   [[nodiscard]] bool in_reach(const objects::MapObject& object) const;
   void dismiss_absent();
+  [[nodiscard]] bool may_be_incomplete(const Target& target) const;
   [[nodiscard]] bool nothing_else_at(const Eigen::Vector3d& place) const;
   [[nodiscard]] std::string why_absent(const Target& target) const;
 

@@ -40,7 +40,8 @@ uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& targ
                                   const ViewModel& model, const PamsConfig& config) {
   uncertainty::Prediction prediction =
       model.predict(target.class_id, view_from(eye, target, model));
-  if (config.faces.hidden_m > 0 && !is_cylinder(target.class_id, model)) {
+  const bool by_face = config.faces.hidden_end_m > 0 || config.faces.hidden_side_m > 0;
+  if (by_face && !is_cylinder(target.class_id, model)) {
     const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
     prediction.covariance = by_faces(prediction.covariance, in_box.head<2>(),
                                      target.extent.size.head<2>(), config.faces);
@@ -50,8 +51,9 @@ uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& targ
 
 Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
   const double place = config.prior_place_m * config.prior_place_m;
-  const double size = config.prior_size_m * config.prior_size_m;
-  const Eigen::Vector4d variances(place, place, size, size);
+  const double length = config.prior_length_m * config.prior_length_m;
+  const double width = config.prior_width_m * config.prior_width_m;
+  const Eigen::Vector4d variances(place, place, length, width);
   return Covariance(variances.head(cylinder ? 2 : 4).asDiagonal());
 }
 

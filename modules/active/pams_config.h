@@ -15,7 +15,8 @@ struct PamsConfig {
   int beam = 60;
   double dwell_s = 1.5;
   double prior_place_m = 0.5;
-  double prior_size_m = 0.5;
+  double prior_length_m = 0.5;
+  double prior_width_m = 0.5;
   FacesConfig faces;
   bool common_counts = false;
   double enough_entropy = -10;
@@ -37,8 +38,12 @@ struct PamsConfig {
     PamsConfig config;
     config.sampling = Sampling::uniform;
     config.beyond_region = true;
-    config.faces.hidden_m = 0.25;
+    config.prior_length_m = 0.45;
+    config.prior_width_m = 0.12;
+    config.faces.hidden_end_m = 0.1;
+    config.faces.hidden_side_m = 0.05;
     config.common_counts = true;
+    config.enough_entropy = -10.5;
     config.price_per_s = 0.3;
     config.at_once = 4;
     config.replan = true;
@@ -60,8 +65,10 @@ struct PamsConfig {
             "in view from a cell of the model until it counts: its window has all points of it");
     v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
             "sd of x and y before the first view: half a car's width");
-    v.field("prior_size_m", prior_size_m, {0.01, 10}, "m",
-            "sd of length and width before it: cars differ by this");
+    v.field("prior_length_m", prior_length_m, {0.01, 10}, "m",
+            "sd of the length before it: of a class of vehicles 0.45");
+    v.field("prior_width_m", prior_width_m, {0.01, 10}, "m",
+            "the same of the width: of a class of vehicles 0.12");
     v.group("faces", faces, "what a view tells of each face of a box");
     v.field(
         "common_counts", common_counts, "",

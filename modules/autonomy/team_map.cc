@@ -34,8 +34,9 @@ objects::ObjectMap in_frame(const std::string& frame, const SE3& T_frame_map,
                             const objects::ObjectMap& map) {
   objects::ObjectMap seen = map;
   seen.frame = frame;
-  for (objects::MapObject& object : seen.objects) {
-    object.model = objects::transformed(T_frame_map, object.model);
+  for (auto* objects : {&seen.objects, &seen.incomplete}) {
+    for (objects::MapObject& object : *objects)
+      object.model = objects::transformed(T_frame_map, object.model);
   }
   for (objects::GroundPlane& plane : seen.ground) plane = objects::transformed(T_frame_map, plane);
   return seen;

@@ -24,6 +24,8 @@ struct ObjectMap {
   std::string frame = "world";
   std::vector<MapObject> objects;  ///< ascending id
   std::vector<GroundPlane> ground;
+  /// What stands there as well, but nobody has seen its ends: no part of what is told to others.
+  std::vector<MapObject> incomplete = {};  ///< ascending id
 };
 
 }  // namespace saker::objects

@@ -16,7 +16,7 @@ struct RegistrationConfig {
   double keep_planes_m = 0.01;
   double noise_m = 0.02;
   double least_kernel_m = 0.06;
-  double correlation = 8;
+  double correlation = 4;
   double plane_correlation = 32;
   int min_inliers = 60;
   double min_inlier_ratio = 0.05;

@@ -270,14 +270,18 @@ objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& t
   return static_cast<objects::ClassId>(best);
 }
 
-bool believed(const Landmark& landmark, const LandmarkConfig& config) {
+bool stands(const Landmark& landmark, const LandmarkConfig& config) {
   if (landmark.moving || landmark.seen < config.confirm_observations) return false;
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
   if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
-  if (is_cuboid(landmark.model) && !(landmark.ends.next.norm() <= config.most_length_sd_m))
-    return false;
   return landmark.log_odds >= config.least_log_odds;
+}
+
+bool believed(const Landmark& landmark, const LandmarkConfig& config) {
+  const bool ends_known =
+      !is_cuboid(landmark.model) || landmark.ends.next.norm() <= config.most_length_sd_m;
+  return ends_known && stands(landmark, config);
 }
 
 bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config) {

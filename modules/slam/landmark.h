@@ -195,8 +195,10 @@ void remember(Landmark& landmark, const Observation& observation);
 /// The most probable class of the landmark's shape.
 [[nodiscard]] objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& table);
 
-/// Seen often enough, over long enough, where it should be seen, no clutter, its length known, and
-/// standing still.
+/// Seen often enough, over long enough, where it should be seen, no clutter, and standing still.
+[[nodiscard]] bool stands(const Landmark& landmark, const LandmarkConfig& config);
+
+/// The same, and its length known.
 [[nodiscard]] bool believed(const Landmark& landmark, const LandmarkConfig& config);
 
 /// Whether the robot at `distance` m should measure it: no farther than where it was measured, and

@@ -197,7 +197,9 @@ void Slam::optimise(const core::Budget& budget, SlamUpdate& report) {
 objects::ObjectMap Slam::map() const {
   objects::ObjectMap map;
   for (const Landmark& landmark : landmarks_) {
-    if (believed(landmark, config_.landmarks)) map.objects.push_back(map_object(landmark, table_));
+    if (!stands(landmark, config_.landmarks)) continue;
+    const bool complete = believed(landmark, config_.landmarks);
+    (complete ? map.objects : map.incomplete).push_back(map_object(landmark, table_));
   }
   map.ground = ground_.planes(trajectory_);
   return map;

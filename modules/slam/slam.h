@@ -112,7 +112,8 @@ class Slam {
 
   [[nodiscard]] SE3 T_world_odom() const { return trajectory_.T_world_odom(); }
 
-  /// The objects that are believed, by ascending id, and the ground. Covariances stay empty.
+  /// The objects that are believed and those whose ends are still to be seen, by ascending id, and
+  /// the ground. Covariances stay empty.
   [[nodiscard]] objects::ObjectMap map() const;
 
   /// The same with covariances in the world frame, poses marginalised; costs about as much as a few

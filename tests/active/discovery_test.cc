@@ -194,6 +194,17 @@ TEST(Discovery, TargetThatIsNotThereIsDismissedBeforeItsSidesAreSeen) {
   EXPECT_TRUE(flight.target(0).absent);
 }
 
+TEST(Discovery, TargetIsKeptWhileAVehicleNearItHasEndsToBeSeen) {
+  Flight flight({}, map_of({car(25, 0)}));
+  objects::ObjectMap map;
+  map.incomplete.push_back(vehicle(100, car(27, 3)));
+  flight.body = {14, 0, 3};
+  (void)map_given(map, flight, 20);
+  EXPECT_FALSE(flight.target(0).absent);
+  (void)map_given({}, flight, 20);
+  EXPECT_TRUE(flight.target(0).absent);
+}
+
 TEST(Discovery, TwoOfThePriorForOneVehicleAreOneTarget) {
   Flight flight({kPark[0]}, map_of({car(19, 6), car(21, 3.5)}));
   EXPECT_LT(flight.fly(), kLong);

@@ -212,7 +212,7 @@ TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue
   PamsFlight flight(config, {car(20, 0)});
   flight.fly(600);
   ASSERT_GE(flight.flown.size(), 2U);
-  const double prior = config.prior_size_m * config.prior_size_m;
+  const double prior = config.prior_length_m * config.prior_length_m;
   double last = std::log(prior);
   for (const Expectation& flown : flight.flown) {
     EXPECT_EQ(flown.target_id, 0);

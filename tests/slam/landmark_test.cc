@@ -140,7 +140,9 @@ TEST(Landmark, VehicleWhoseEndNobodyHasSeenIsNotBelievedUntilTwoWindowsHave) {
   Feed feed;
   feed.see_ends(0.1, 1);
   for (int i = 0; i < 9; ++i) feed(car(5, 0, 0), kVehicle);
-  EXPECT_FALSE(believed(feed(car(5, 0, 0), kVehicle), kConfig));
+  const Landmark half = feed(car(5, 0, 0), kVehicle);
+  EXPECT_FALSE(believed(half, kConfig));
+  EXPECT_TRUE(stands(half, kConfig));
   feed.see_ends(1, 0.1);
   EXPECT_FALSE(believed(feed(car(5, 0, 0), kVehicle), kConfig)) << "one window may be wrong";
   EXPECT_TRUE(believed(feed(car(5, 0, 0), kVehicle), kConfig));
