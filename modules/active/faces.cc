@@ -9,11 +9,11 @@ namespace saker::active {
 Covariance by_faces(const Covariance& covariance, const Eigen::Vector2d& eye,
                     const Eigen::Vector2d& size, const FacesConfig& config) {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  const Eigen::Vector2d hidden_m(config.hidden_end_m, config.hidden_side_m);
   for (int axis = 0; axis < 2; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       const double outside = sign * eye[axis] - 0.5 * size[axis];
-      const double hidden = hidden_m[axis] * (1 - std::clamp(outside / config.outside_m, 0.0, 1.0));
+      const double hidden =
+          config.hidden_m * (1 - std::clamp(outside / config.outside_m, 0.0, 1.0));
       Eigen::Vector4d face = Eigen::Vector4d::Zero();
       face[axis] = sign;
       face[2 + axis] = 0.5;

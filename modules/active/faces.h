@@ -8,17 +8,15 @@
 namespace saker::active {
 
 struct FacesConfig {
-  double hidden_end_m = 0;
-  double hidden_side_m = 0;
+  double hidden_m = 0;
   double outside_m = 1;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("hidden_end_m", hidden_end_m, {0, 10}, "m",
-            "sd that an end has beside the fitted one where a view does not look at it: what its "
-            "upper edge does not tell, a hood's length say; 0: as if all views measured all faces");
-    v.field("hidden_side_m", hidden_side_m, {0, 10}, "m",
-            "the same of a side, which stands nearly upright");
+    v.field(
+        "hidden_m", hidden_m, {0, 10}, "m",
+        "sd that a face has beside the fitted one where a view does not look at it: what its upper "
+        "edge does not tell; 0: as if all views measured all faces");
     v.field("outside_m", outside_m, {0.01, 20}, "m",
             "that the sensor is outside of a face's plane: it looks at the face");
   }

@@ -40,10 +40,8 @@ struct PamsConfig {
     config.beyond_region = true;
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
-    config.faces.hidden_end_m = 0.1;
-    config.faces.hidden_side_m = 0.05;
+    config.faces.hidden_m = 0.12;
     config.common_counts = true;
-    config.enough_entropy = -10.5;
     config.price_per_s = 0.3;
     config.at_once = 4;
     config.replan = true;

@@ -17,7 +17,7 @@ Covariance of_faces() {
 }
 
 Covariance seen_from(double x, double y) {
-  return by_faces(of_faces(), {x, y}, kSize, {.hidden_end_m = kHidden, .hidden_side_m = kHidden});
+  return by_faces(of_faces(), {x, y}, kSize, {.hidden_m = kHidden});
 }
 
 /// Variance of the face on that side of an axis.
