@@ -198,7 +198,7 @@ TEST(Discovery, TargetIsKeptWhileAVehicleNearItHasEndsToBeSeen) {
   Flight flight({}, map_of({car(25, 0)}));
   objects::ObjectMap map;
   map.incomplete.push_back(vehicle(100, car(27, 3)));
-  flight.body = {14, 0, 3};
+  flight.body = {16, 0, 3};
   (void)map_given(map, flight, 20);
   EXPECT_FALSE(flight.target(0).absent);
   (void)map_given({}, flight, 20);

@@ -101,7 +101,7 @@ TEST_P(BothPolicies, LookForATargetThatIsNotMappedAsVisitDoes) {
 
 TEST_P(BothPolicies, EndATargetAtTheEntropyThreshold) {
   PamsConfig config = GetParam();
-  config.enough_entropy = -4;  // sd of 0.4 m: the first view is enough
+  config.enough_entropy = -6;  // the first view is enough
   config.price_per_s = 0;
   PamsFlight flight(config, {car(20, 5)});
   flight.fly(600);
@@ -111,7 +111,7 @@ TEST_P(BothPolicies, EndATargetAtTheEntropyThreshold) {
 
 TEST_P(BothPolicies, DoNotEndItThereWhileItsClassIsUnsure) {
   PamsConfig config = GetParam();
-  config.enough_entropy = -4;
+  config.enough_entropy = -6;
   PamsFlight flight(config, {car(20, 5)});
   objects::ObjectMap unsure = map_of({car(20, 5)});
   unsure.objects[0].class_probability = {0.5, 0.5, 0, 0, 0};
