@@ -38,13 +38,14 @@ void write_model(const Model& model, double* parameters) {
 void read_model(const double* parameters, Model& model) {
   if (auto* cuboid = std::get_if<objects::Cuboid>(&model)) {
     cuboid->pose = pose_from(parameters);
-    cuboid->size = Eigen::Map<const Eigen::Vector3d>(parameters + kPoseParameters);
+    cuboid->size =
+        Eigen::Map<const Eigen::Vector3d>(parameters + kPoseParameters).cwiseMax(kLeastSize);
     return;
   }
   auto& cylinder = std::get<objects::Cylinder>(model);
   cylinder.root = Eigen::Map<const Eigen::Vector3d>(parameters);
   cylinder.axis = Eigen::Map<const Eigen::Vector3d>(parameters + 3);
-  cylinder.radius = parameters[6];
+  cylinder.radius = std::max(parameters[6], kLeastSize);
 }
 
 ceres::Problem::Options keep_ownership() {

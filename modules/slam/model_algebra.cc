@@ -27,12 +27,13 @@ Eigen::VectorXd difference_of(const Cylinder& b, const Cylinder& a) {
 }
 
 Model moved_by(const Cuboid& a, const Eigen::VectorXd& step) {
-  return Cuboid{a.pose * core::se3_exp(step.head<6>()), a.size + step.tail<3>()};
+  return Cuboid{a.pose * core::se3_exp(step.head<6>()),
+                (a.size + step.tail<3>()).cwiseMax(kLeastSize)};
 }
 
 Model moved_by(const Cylinder& a, const Eigen::VectorXd& step) {
   return Cylinder{a.root + step.head<3>(), axis_plus(a.axis, step.segment<2>(3)),
-                  a.radius + step[5], a.height};
+                  std::max(a.radius + step[5], kLeastSize), a.height};
 }
 
 /// A step of T_b_a moves T_b_a · p by R (ν − p × ω): rows for root and axis of a cylinder.

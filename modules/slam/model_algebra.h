@@ -12,7 +12,11 @@ using objects::Model;
 /// b ⊖ a, in a's own frame: 9 of a cuboid, 6 of a cylinder. Both are of one shape.
 [[nodiscard]] Eigen::VectorXd difference(const Model& b, const Model& a);
 
-/// a ⊕ δ.
+/// m. No step makes an object smaller: the optimum of a few poor views may lie at a negative
+/// radius.
+inline constexpr double kLeastSize = 0.01;
+
+/// a ⊕ δ, of `kLeastSize` at least.
 [[nodiscard]] Model moved(const Model& a, const Eigen::VectorXd& step);
 
 /// A model and its covariance as one measurement.
