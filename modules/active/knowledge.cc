@@ -42,8 +42,10 @@ uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& targ
       model.predict(target.class_id, view_from(eye, target, model));
   if (config.faces.hidden_m > 0 && !is_cylinder(target.class_id, model)) {
     const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
-    prediction.covariance = by_faces(prediction.covariance, in_box.head<2>(),
+    prediction.covariance = by_faces(prediction.covariance, prediction.whole, in_box.head<2>(),
                                      target.extent.size.head<2>(), config.faces);
+  } else {
+    prediction.covariance /= prediction.whole;
   }
   return prediction;
 }
@@ -58,8 +60,8 @@ Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
 
 Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& model,
                      const PamsConfig& config)
-    : belief_(prior_covariance(config, is_cylinder(target.class_id, model)),
-              counted_common(target, model, config)) {
+    : common_(counted_common(target, model, config)),
+      belief_(prior_covariance(config, is_cylinder(target.class_id, model)), common_) {
   struct Cell {
     double seconds = 0;
     Matrix4d weighted = Matrix4d::Zero();  // Σ seconds · information
@@ -73,13 +75,17 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
   }
   for (const auto& [id, cell] : cells) {
     if (cell.seconds < config.dwell_s) continue;
-    cells_.push_back(id);
-    belief_.add(cell.weighted / cell.seconds);
+    cells_.emplace(id, cell.weighted / cell.seconds);
+    belief_.add(cells_.at(id));
   }
 }
 
-bool Knowledge::counted(int cell) const {
-  return std::binary_search(cells_.begin(), cells_.end(), cell);
+Belief Knowledge::expected(const Covariance& covariance, const Knowledge& then) const {
+  Belief belief(covariance, common_);
+  for (const auto& [id, information] : then.cells_) {
+    if (!counted(id)) belief.add(information);
+  }
+  return belief;
 }
 
 }  // namespace saker::active

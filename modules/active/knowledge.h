@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "active/belief.h"
@@ -14,7 +15,8 @@ namespace saker::active {
 [[nodiscard]] uncertainty::View view_from(const Eigen::Vector3d& eye, const Target& target,
                                           const ViewModel& model);
 
-/// What a view from `eye` (world) tells of the target.
+/// What a view from `eye` (world) tells of the target. One that shows it from end to end in one of
+/// n windows tells a nth; told face by face, of those that it does not look at.
 [[nodiscard]] uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& target,
                                                 const ViewModel& model, const PamsConfig& config);
 
@@ -27,12 +29,18 @@ class Knowledge {
             const PamsConfig& config);
 
   [[nodiscard]] const Belief& belief() const { return belief_; }
-  [[nodiscard]] bool counted(int cell) const;
+  [[nodiscard]] bool counted(int cell) const { return cells_.contains(cell); }
   [[nodiscard]] int cells() const { return static_cast<int>(cells_.size()); }
 
+  /// What a map that knows the object to `covariance` (given the poses) by now will know after more
+  /// looks.
+  /// \param then  of the same target after them
+  [[nodiscard]] Belief expected(const Covariance& covariance, const Knowledge& then) const;
+
  private:
+  Covariance common_;  ///< as far as it counts
   Belief belief_;
-  std::vector<int> cells_;  ///< that count
+  std::map<int, Eigen::Matrix4d> cells_;  ///< that count, and their information
 };
 
 /// [x, y, length, width] or [x, y] before the first view.

@@ -1,6 +1,8 @@
 #include "active/pams.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "active/flight_time.h"
 
@@ -235,18 +237,50 @@ std::optional<Path> PamsPolicy::best_path(const Choice& choice) const {
 /// What is predicted of the path's first viewpoint, before it is flown to.
 void PamsPolicy::expect(const Choice& choice, const Path& path) {
   const int stop = path.stops.front();
-  const Target& target = targets_[choice.together.front()];
+  const Viewpoint& viewpoint = choice.samples[stop].viewpoint;
+  const int index = choice.together.front();
+  const Target& target = targets_[index];
   const Eigen::MatrixXd common = model_.common(target.class_id);
-  Eigen::Matrix4d covariance = after(choice.problem, {stop}).front().covariance();
+  const Belief belief = expected_of(viewpoint, index);
+  Eigen::Matrix4d covariance = belief.covariance();
   if (!pams_.common_counts) covariance.topLeftCorner(common.rows(), common.cols()) += common;
   Expectation expected;
-  expected.viewpoint_id = choice.samples[stop].viewpoint.id;
+  expected.viewpoint_id = viewpoint.id;
   expected.target_id = target.id;
   expected.object_id = target.object_id;
   expected.cell = choice.problem.stops[stop].front().cell;
   expected.gain = path_through(choice.problem, {stop}).gain;
   expected.covariance = covariance.topLeftCorner(common.rows(), common.cols());
   expected_ = expected;
+}
+
+/// Of the current target, by what the map knows of it now.
+Belief PamsPolicy::expected_of(const Viewpoint& viewpoint, int index) const {
+  const Target& target = targets_[index];
+  PamsConfig config = pams_;
+  config.dwell_s = pams_.window_s;
+  const Knowledge now(target, looks_[index], model_, config);
+  const Knowledge then(target, looks_until(viewpoint, index), model_, config);
+  const bool in_map = target.covariance.size() > 0;
+  return in_map ? now.expected(target.covariance, then) : then.belief();
+}
+
+/// With those of the straight way there, on which other sides come by.
+Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
+  const Target& target = targets_[index];
+  const Eigen::Vector3d way = viewpoint.position - body_;
+  const double turn = std::remainder(viewpoint.yaw - yaw_, 2 * std::numbers::pi);
+  const int steps = static_cast<int>(std::ceil(way.norm() / pams_.way_step_m));
+  const double seconds = flight_time_s(way, turn, limits_) / std::max(steps, 1);
+  Looks looks = looks_[index];
+  for (int step = 0; step < steps; ++step) {
+    const double share = (step + 0.5) / steps;
+    const Eigen::Vector3d eye = body_ + share * way;
+    if (!sees(eye, yaw_ + share * turn, target, 0)) continue;
+    looks.add(eye, target.place(), seconds, flown_m_ + share * way.norm());
+  }
+  looks.add(viewpoint.position, target.place(), pams_.dwell_s, flown_m_ + way.norm());
+  return looks;
 }
 
 Knowledge PamsPolicy::known_of(int index) const {

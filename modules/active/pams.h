@@ -62,6 +62,8 @@ class PamsPolicy : public VisitPolicy {
   void add_ways(Choice& choice) const;
   [[nodiscard]] std::optional<Path> best_path(const Choice& choice) const;
   void expect(const Choice& choice, const Path& path);
+  [[nodiscard]] Belief expected_of(const Viewpoint& viewpoint, int index) const;
+  [[nodiscard]] Looks looks_until(const Viewpoint& viewpoint, int index) const;
   [[nodiscard]] Knowledge known_of(int index) const;
   [[nodiscard]] bool enough(int index, const Knowledge& known) const;
   [[nodiscard]] double class_probability(const Target& target) const;

@@ -31,6 +31,8 @@ struct PamsConfig {
   double most_drift_m = 0.3;
   int most_views = 12;
   int search_sides = 2;
+  double way_step_m = 1;
+  double window_s = 0.5;
 
   [[nodiscard]] static PamsConfig paper() { return {}; }
 
@@ -40,7 +42,8 @@ struct PamsConfig {
     config.beyond_region = true;
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
-    config.faces.hidden_m = 0.12;
+    config.faces.hidden_m = 0.06;
+    config.enough_entropy = -11;
     config.common_counts = true;
     config.price_per_s = 0.3;
     config.at_once = 4;
@@ -90,6 +93,11 @@ struct PamsConfig {
     v.field("most_views", most_views, {1, 100}, "", "viewpoints flown to a target");
     v.field("search_sides", search_sides, {1, 4}, "",
             "from which a target that is not in the map is looked for: behind what hides it, too");
+    v.field("window_s", window_s, {0, 60}, "s",
+            "in view from a cell until the map knows it better, for what is predicted: SLAM counts "
+            "a cell from its first window on");
+    v.field("way_step_m", way_step_m, {0.1, 10}, "m",
+            "at which it is asked what comes into view on the way: a third of the narrowest cell");
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "objects/assignment.h"
+#include "objects/measurement.h"
 
 namespace saker::active {
 namespace {
@@ -33,6 +34,13 @@ Cuboid cuboid_of(const objects::Model& model) {
   around.size = {2 * cylinder.radius, 2 * cylinder.radius, cylinder.height};
   around.pose.translation() = cylinder.root + 0.5 * cylinder.height * Eigen::Vector3d::UnitZ();
   return around;
+}
+
+/// Of [x, y, length, width] or [x, y]; empty where the map does not say.
+Covariance planar(const MapObject& object) {
+  const std::vector<int> rows = objects::planar_rows(object.model);
+  if (object.covariance.rows() <= rows.back() || !object.covariance.allFinite()) return {};
+  return object.covariance(rows, rows);
 }
 
 std::string name_of(const MapObject& object) {
@@ -115,16 +123,15 @@ double TargetList::distance(const Target& target, const MapObject& object) const
 }
 
 /// Of target and object in x-y; those that cannot be the same never are.
-Eigen::MatrixXd TargetList::costs(const objects::ObjectMap& map) const {
-  Eigen::MatrixXd cost(size(), static_cast<Eigen::Index>(map.objects.size()));
+Eigen::MatrixXd TargetList::costs(const std::vector<const MapObject*>& objects) const {
+  Eigen::MatrixXd cost(size(), static_cast<Eigen::Index>(objects.size()));
   for (int t = 0; t < size(); ++t) {
-    for (Eigen::Index o = 0; o < cost.cols(); ++o)
-      cost(t, o) = distance(targets_[t], map.objects[o]);
+    for (Eigen::Index o = 0; o < cost.cols(); ++o) cost(t, o) = distance(targets_[t], *objects[o]);
   }
   for (int t = 0; t < size(); ++t) {
     if (targets_[t].status == TargetStatus::pending) continue;
     for (Eigen::Index o = 0; o < cost.cols(); ++o) {
-      if (map.objects[o].id != targets_[t].object_id || cost(t, o) == kNever) continue;
+      if (objects[o]->id != targets_[t].object_id || cost(t, o) == kNever) continue;
       cost.row(t).setConstant(kNever);
       cost.col(o).setConstant(kNever);
       cost(t, o) = 0;
@@ -134,18 +141,24 @@ Eigen::MatrixXd TargetList::costs(const objects::ObjectMap& map) const {
 }
 
 void TargetList::associate(const objects::ObjectMap& map) {
-  const std::vector<int> object_of = objects::assign(costs(map), config_.gate_m);
+  std::vector<const MapObject*> objects;
+  for (const MapObject& object : map.objects) objects.push_back(&object);
+  for (const MapObject& object : map.incomplete) objects.push_back(&object);
+  const std::vector<int> object_of = objects::assign(costs(objects), config_.gate_m);
   for (int t = 0; t < size(); ++t) {
-    attach(t, object_of[t] < 0 ? nullptr : &map.objects[object_of[t]]);
+    const int o = object_of[t];
+    attach(t, o < 0 ? nullptr : objects[o], o < static_cast<int>(map.objects.size()));
   }
 }
 
-void TargetList::attach(int index, const MapObject* object) {
+void TargetList::attach(int index, const MapObject* object, bool complete) {
   Target& target = targets_[index];
-  target.object_id = object ? object->id : -1;
+  const bool mapped = object && complete;
+  target.object_id = mapped ? object->id : -1;
+  target.covariance = mapped ? planar(*object) : Covariance();
   target.extent = object ? cuboid_of(object->model) : prior_extent_[index];
   if (target.status == TargetStatus::done || target.status == TargetStatus::visited) {
-    target.status = object ? TargetStatus::done : TargetStatus::visited;
+    target.status = mapped ? TargetStatus::done : TargetStatus::visited;
   }
 }
 
@@ -161,7 +174,7 @@ int TargetList::add(const MapObject& object) {
   target.discovered = true;
   prior_extent_.push_back(prior_extent(object, config_));
   target.prior_place = prior_extent_.back().pose.translation();
-  attach(size() - 1, &object);
+  attach(size() - 1, &object, true);
   ++revision_;
   return size() - 1;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "active/belief.h"
 #include "core/config.h"
 #include "objects/object_map.h"
 
@@ -53,7 +54,8 @@ enum class TargetStatus {
 struct Target {
   int id = -1;  ///< of the prior map's object; of a discovered one: follows the prior's largest
   objects::ClassId class_id = 0;
-  objects::Cuboid extent;  ///< world: the mapped object's, or else the prior's with its margin
+  objects::Cuboid extent;  ///< world: its object's, or else the prior's with its margin
+  Covariance covariance;   ///< of its mapped object, given the poses; empty without one
   Eigen::Vector3d prior_place = Eigen::Vector3d::Constant(NAN);  ///< world, m
   int object_id = -1;  ///< the mapped object's; −1: none yet
   TargetStatus status = TargetStatus::pending;
@@ -77,6 +79,8 @@ class TargetList {
   /// Gives each target the mapped object of its class that it is: one to one, the most pairs in the
   /// gate, of those the nearest. A target whose object has left the map has none again. A closed
   /// one keeps its object, for another may not have been looked at; an unreachable one takes none.
+  /// An incomplete object may be a target's as well, which then takes no neighbour's: it is not
+  /// mapped by it, but known to be about there.
   void associate(const objects::ObjectMap& map);
 
   void close(int index, TargetStatus status, std::string reason);
@@ -97,8 +101,8 @@ class TargetList {
 
  private:
   [[nodiscard]] double distance(const Target& target, const objects::MapObject& object) const;
-  [[nodiscard]] Eigen::MatrixXd costs(const objects::ObjectMap& map) const;
-  void attach(int index, const objects::MapObject* object);
+  [[nodiscard]] Eigen::MatrixXd costs(const std::vector<const objects::MapObject*>& objects) const;
+  void attach(int index, const objects::MapObject* object, bool complete);
 
   TargetsConfig config_;
   int next_id_ = 0;

@@ -21,9 +21,7 @@ ViewModel view_model_of(std::shared_ptr<const uncertainty::Model> model,
   }
   ViewModel view_model;
   view_model.predict = [model](objects::ClassId id, const uncertainty::View& view) {
-    uncertainty::Prediction prediction = model->predict(id, view);
-    prediction.covariance /= prediction.whole;
-    return prediction;
+    return model->predict(id, view);
   };
   view_model.common = [model](objects::ClassId id) { return model->common_covariance(id); };
   view_model.in_region = [model, regions](objects::ClassId id, const uncertainty::View& view) {

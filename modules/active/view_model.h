@@ -10,8 +10,7 @@ namespace saker::active {
 
 /// What active mapping asks of the fitted models.
 struct ViewModel {
-  /// What a measurement from this view is worth; a view that shows the object from end to end in
-  /// one of n tells a nth.
+  /// What a measurement from this view is worth where it shows the object from end to end.
   std::function<uncertainty::Prediction(objects::ClassId, const uncertainty::View&)> predict;
   /// What all views of one object have in common.
   std::function<Eigen::MatrixXd(objects::ClassId)> common;

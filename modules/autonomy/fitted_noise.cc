@@ -122,11 +122,10 @@ objects::Detections FittedNoise::applied(objects::Detections detections,
 
 Eigen::MatrixXd FittedNoise::common_of(const objects::MapObject& object) const {
   Eigen::MatrixXd common = slam::common_variances(object.model, fixed_).asDiagonal();
-  if (model_ == nullptr || !model_->knows(object.class_id)) return common;
+  const bool is_fitted = model_ != nullptr && model_->knows(object.class_id);
+  if (!is_fitted || !slam::is_cuboid(object.model)) return common;
   const std::vector<int> rows = objects::planar_rows(object.model);
-  Eigen::MatrixXd fitted = model_->common_covariance(object.class_id);
-  if (rows.size() == 2) fitted = 0.5 * fitted.trace() * Eigen::Matrix2d::Identity();
-  common(rows, rows) = fitted;
+  common(rows, rows) = model_->common_covariance(object.class_id);
   return common;
 }
 

@@ -46,8 +46,9 @@ class FittedNoise {
                                             const Eigen::Matrix3d& R_odom_lidar) const;
 
   /// Adds to the covariances of the map what all views of an object have in common, which the graph
-  /// cannot know: the model's where it knows the class, else what is configured in `slam.noise`. Of
-  /// a cylinder the model's is spread evenly over all directions, for it was seen along many.
+  /// cannot know: of cuboids the model's where it knows the class, else what is configured in
+  /// `slam.noise`. Of a cylinder the model's lies along the line of sight and turns with it: over a
+  /// flight hardly anything of it is common.
   void add_common(objects::ObjectMap& map) const;
 
  private:

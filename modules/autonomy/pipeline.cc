@@ -127,7 +127,7 @@ std::shared_ptr<const MapSnapshot> Mapping::cycle(std::span<const detection::Lab
                     noise_.applied(snapshot->detections, newest.T_odom_lidar.linear())},
                    core::Budget::iterations(iterations_));
   snapshot->stamp = newest.stamp;
-  snapshot->map = slam_.map();
+  snapshot->map = slam_.map_given_poses();
   snapshot->T_world_odom = slam_.T_world_odom();
   snapshot->classified_share = classified_share(*newest.labels);
   return snapshot;

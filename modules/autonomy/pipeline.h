@@ -103,7 +103,7 @@ class LabelledWindow {
 /// What mapping knows after a cycle; shared, never changed.
 struct MapSnapshot {
   Time stamp = 0;
-  objects::ObjectMap map;  ///< in `world`
+  objects::ObjectMap map;  ///< in `world`; covariances given the poses, without common parts
   SE3 T_world_odom = SE3::Identity();
   objects::Detections detections;  ///< as measured, lidar frame at `stamp`
   slam::SlamUpdate update;

@@ -221,6 +221,21 @@ void add_observation(const Model& model, const Weighted& observation, const Grap
   sum.gradient -= weighted * residual.error;
 }
 
+NormalEquations normal_equations(const Model& model, std::span<const Weighted> all,
+                                 const GraphConfig& config) {
+  const Eigen::Index size = is_cuboid(model) ? kCuboidTangent : kCylinderTangent;
+  NormalEquations sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  for (const Weighted& observation : all) add_observation(model, observation, config, sum);
+  return sum;
+}
+
+/// Empty where there is none.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
+  const auto solver = information.llt();
+  if (solver.info() != Eigen::Success) return {};
+  return solver.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+}
+
 double robust_cost(const Model& model, std::span<const Weighted> all, const GraphConfig& config) {
   double cost = 0;
   for (const Weighted& observation : all) {
@@ -323,19 +338,21 @@ void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& con
 
 Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config) {
   restart_if_better(landmark, chains, config);
-  const Eigen::Index size = is_cuboid(landmark.model) ? kCuboidTangent : kCylinderTangent;
   const std::vector<Weighted> all = all_in_world(landmark, chains, config);
   NormalEquations sum;
   for (int step = 0; step < kRefineSteps; ++step) {
-    sum = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-    for (const Weighted& observation : all) {
-      add_observation(landmark.model, observation, config, sum);
-    }
+    sum = normal_equations(landmark.model, all, config);
     const auto solver = sum.information.llt();
     if (solver.info() != Eigen::Success) return {};
     landmark.model = moved(landmark.model, solver.solve(sum.gradient));
   }
-  return sum.information.llt().solve(Eigen::MatrixXd::Identity(size, size));
+  return inverse_of(sum.information);
+}
+
+Eigen::MatrixXd covariance_given_poses(const Landmark& landmark, Chains chains,
+                                       const GraphConfig& config) {
+  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
+  return inverse_of(normal_equations(landmark.model, all, config).information);
 }
 
 std::vector<double> robust_weights(const Landmark& landmark, Chains chains,

@@ -60,6 +60,11 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
 /// vehicle would never leave it.
 Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config);
 
+/// Covariance of the estimate given the poses, in the object's own frame; empty where nothing was
+/// measured. One linearisation.
+[[nodiscard]] Eigen::MatrixXd covariance_given_poses(const Landmark& landmark, Chains chains,
+                                                     const GraphConfig& config);
+
 /// Moves the estimate to its newest measurement where the robust cost of all is less there.
 void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config);
 

@@ -12,12 +12,12 @@ struct MeasurementNoiseConfig {
   double common_place_m = 0.03;
   double common_length_m = 0.03;
   double common_width_m = 0.065;
-  double common_root_m = 0.04;
+  double common_root_m = 0.03;
   double common_radius_m = 0.02;
   double shared_place = 10;
   double shared_length = 9;
   double shared_width = 2.5;
-  double shared_cells = 3;
+  double shared_cells = 1.5;
   double shared_root = 4;
   double shared_radius = 20;
 

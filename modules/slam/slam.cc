@@ -217,18 +217,41 @@ Slam::MapWithCovariance Slam::map_with_covariance() const {
   return result;
 }
 
+objects::ObjectMap Slam::map_given_poses() const {
+  objects::ObjectMap map = this->map();
+  std::vector<Keyframe> poses = trajectory_.keyframes();
+  const Chain own{&poses};
+  for (auto* objects : {&map.objects, &map.incomplete}) {
+    for (objects::MapObject& object : *objects) {
+      const Landmark& landmark =
+          *std::ranges::find(landmarks_, object.id, [](const Landmark& l) { return l.id; });
+      object.covariance =
+          named_covariance(landmark, covariance_given_poses(landmark, {&own, 1}, config_.graph));
+    }
+  }
+  widen(map);
+  return map;
+}
+
 objects::ObjectMap Slam::reported_map() const {
   objects::ObjectMap map = map_with_covariance().map;
+  widen(map);
+  return map;
+}
+
+/// By what windows share.
+void Slam::widen(objects::ObjectMap& map) const {
   MeasurementNoiseConfig noise = config_.noise;
   if (config_.measurement_noise == NoiseSource::fitted) {  // cells count once; of radii windows do
     noise.shared_length = noise.shared_width = noise.shared_cells;
     noise.shared_place = noise.shared_root = 1;
   }
-  for (objects::MapObject& object : map.objects) {
-    if (object.covariance.size() == 0) continue;
-    object.covariance = widened(object.model, object.covariance, noise);
+  for (auto* objects : {&map.objects, &map.incomplete}) {
+    for (objects::MapObject& object : *objects) {
+      if (object.covariance.size() == 0) continue;
+      object.covariance = widened(object.model, object.covariance, noise);
+    }
   }
-  return map;
 }
 
 CovarianceReport Slam::covariance(std::span<const int> ids) const {

@@ -116,6 +116,10 @@ class Slam {
   /// the ground. Covariances stay empty.
   [[nodiscard]] objects::ObjectMap map() const;
 
+  /// The same with covariances given the poses, widened as in `reported_map`: what is known of the
+  /// objects beside the robot. As cheap as one linearisation.
+  [[nodiscard]] objects::ObjectMap map_given_poses() const;
+
   /// The same with covariances in the world frame, poses marginalised; costs about as much as a few
   /// cycles. Where that fails the covariance given the poses stands instead, and `marginal` is
   /// false.
@@ -145,6 +149,7 @@ class Slam {
   }
 
  private:
+  void widen(objects::ObjectMap& map) const;
   [[nodiscard]] Chain chain();
   void record();
   void retire();

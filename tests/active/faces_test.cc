@@ -16,8 +16,8 @@ Covariance of_faces() {
   return Covariance(Eigen::Vector4d(face / 2, face / 2, 2 * face, 2 * face).asDiagonal());
 }
 
-Covariance seen_from(double x, double y) {
-  return by_faces(of_faces(), {x, y}, kSize, {.hidden_m = kHidden});
+Covariance seen_from(double x, double y, double whole = 1) {
+  return by_faces(of_faces(), whole, {x, y}, kSize, {.hidden_m = kHidden});
 }
 
 /// Variance of the face on that side of an axis.
@@ -41,6 +41,12 @@ TEST(Faces, ThoseThatAreNotAreKnownLess) {
   EXPECT_NEAR(face(oblique, 1, 1), hidden, 1e-9);
 }
 
+TEST(Faces, ThoseThatAreNotAreKnownInWindowsThatShowTheWholeBoxAlone) {
+  const Covariance seldom = seen_from(8, -6, 0.25);
+  EXPECT_NEAR(face(seldom, 0, 1), 0.05 * 0.05, 1e-9);
+  EXPECT_NEAR(face(seldom, 0, -1), 4 * 0.05 * 0.05 + kHidden * kHidden, 1e-9);
+}
+
 TEST(Faces, FromBesideNeitherEndIsLookedAt) {
   const Covariance beside = seen_from(0, 7);
   EXPECT_GT(face(beside, 0, 1), kHidden * kHidden);
@@ -54,7 +60,7 @@ TEST(Faces, ALookFromTheOtherSideTellsMoreThanOneMoreFromThisSide) {
 }
 
 TEST(Faces, WithoutHiddenOnesAreTheModels) {
-  EXPECT_TRUE(by_faces(of_faces(), {8, -6}, kSize, {}).isApprox(of_faces(), 1e-9));
+  EXPECT_TRUE(by_faces(of_faces(), 1, {8, -6}, kSize, {}).isApprox(of_faces(), 1e-9));
 }
 
 }  // namespace

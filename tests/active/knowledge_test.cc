@@ -41,6 +41,19 @@ Knowledge known(const Looks& looks, double yaw = 0, const PamsConfig& config = c
   return Knowledge(car_at_origin(yaw), looks, oblique_model(), config);
 }
 
+TEST(Predicted, AViewThatShowsAVehicleEveryFourthTimeTellsAQuarter) {
+  ViewModel seldom = oblique_model();
+  seldom.predict = [](objects::ClassId id, const uncertainty::View& view) {
+    uncertainty::Prediction prediction = predict(id, view);
+    prediction.whole = 0.25;
+    return prediction;
+  };
+  const auto of = [](const ViewModel& model) {
+    return predicted(eye_at(pi / 4), car_at_origin(), model, config_with()).covariance;
+  };
+  EXPECT_TRUE(of(seldom).isApprox(4 * of(oblique_model()), 1e-9));
+}
+
 TEST(Looks, OfOnePlaceAreOneHoweverManyThereAre) {
   Looks looks = no_looks();
   for (int i = 0; i < 100; ++i) looks.add(eye_at(0.01 * (i % 3)), {0, 0, 0}, 0.5, i);
@@ -114,6 +127,17 @@ TEST(Knowledge, OfLaterLooksIsLessWhenDriftCounts) {
   const Eigen::Matrix4d with = known(looks, 0, config).belief().covariance();
   EXPECT_GT(with(0, 0), without(0, 0));
   EXPECT_NEAR(with(2, 2), without(2, 2), 1e-12);
+}
+
+TEST(Knowledge, WhatIsExpectedIsTheMapsAndTheCellsThatAreNew) {
+  const Covariance map(Eigen::Vector4d(0.01, 0.01, 0.04, 0.02).asDiagonal());
+  Looks looks = no_looks();
+  looks.add(eye_at(0.3), {0, 0, 0}, 3, 0);
+  const Knowledge now = known(looks);
+  EXPECT_TRUE(now.expected(map, now).covariance().isApprox(map, 1e-9));
+  looks.add(eye_at(-2.0), {0, 0, 0}, 3, 0);
+  const double length = 1 / (1 / 0.04 + std::pow(view_sd(-2.0), -2));
+  EXPECT_NEAR(now.expected(map, known(looks)).covariance()(2, 2), length, 1e-9);
 }
 
 TEST(Knowledge, HoldsWhatIsCommonWhereItCounts) {

@@ -335,6 +335,35 @@ TEST(Saker, WeighsTheNeighboursThatAViewpointSees) {
   EXPECT_GT(together.plan.expected->gain, 1.5 * one.plan.expected->gain);
 }
 
+TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
+  const std::vector<Cuboid> cars = {car(25, 5, 0.4)};
+  const ViewModel model = oblique_model();
+  const ActiveConfig config;
+  const TargetList targets(config.targets, kTable, map_of(cars));
+  PamsConfig pams = never_enough(GetParam());
+  pams.price_per_s = std::min(pams.price_per_s, 0.05);
+  pams.window_s = pams.dwell_s;
+  PamsFlight flight(pams, cars);
+  Looks looks(36, 0.5);
+  Target target = targets[0];
+  target.extent = cars[0];
+  double flown_m = 0;
+  for (int step = 0; step < 60 && flight.flown.empty(); ++step) {
+    const Eigen::Vector3d before = flight.body;
+    flight.fly(1);
+    flown_m += (flight.body - before).norm();
+    if (in_field_of_view(before, 0, target.extent, config.view, 0)) {
+      looks.add(before, target.place(), 1, flown_m);
+    }
+  }
+  ASSERT_FALSE(flight.flown.empty());
+  const Knowledge known(target, looks, model, GetParam());
+  Eigen::Matrix4d after = known.belief().covariance();
+  if (!GetParam().common_counts) after += model.common(target.class_id);
+  const Eigen::Matrix4d predicted = flight.flown.front().covariance;
+  EXPECT_NEAR(0.5 * std::log(predicted.determinant() / after.determinant()), 0, 0.4);
+}
+
 TEST(Saker, FliesLessWhenASecondCostsMore) {
   PamsConfig dear = never_enough(PamsConfig::saker()), cheap = dear;
   dear.price_per_s = 0.3;

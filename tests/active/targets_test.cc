@@ -92,6 +92,17 @@ TEST(Targets, EachMappedObjectBelongsToOneTargetTheNearest) {
   EXPECT_FALSE(targets[2].mapped());
 }
 
+TEST(Targets, WithAnIncompleteObjectNearerTakesNoNeighboursAndIsNotMapped) {
+  TargetList targets = targets_at({car(0, 0)});
+  objects::ObjectMap map = map_of({car(3, 0)});
+  targets.associate(map);
+  ASSERT_TRUE(targets[0].mapped());
+  map.incomplete = {vehicle(9, car(0.5, 0.2))};
+  targets.associate(map);
+  EXPECT_FALSE(targets[0].mapped());
+  EXPECT_DOUBLE_EQ(targets[0].place().x(), 0.5);
+}
+
 TEST(Targets, AnotherClassAnotherStoreyAndWhatIsNotFiniteDoNotBelong) {
   TargetList targets = targets_at({car(0, 0)});
   objects::ObjectMap map = map_of({car(0, 0), car(0, 0), car(0, 0)});

@@ -200,7 +200,8 @@ TEST(FittedNoise, ReportedCovarianceIsTheGraphsAndTheCommonPart) {
   EXPECT_NEAR(of_car(7, 7), 0.05 * 0.05, 1e-12);
   EXPECT_EQ(of_car(8, 8), 0);
   const Eigen::MatrixXd of_trunk = map.objects[1].covariance - before.objects[1].covariance;
-  EXPECT_NEAR(of_trunk(0, 0), 0.5 * (0.03 * 0.03 + 0.01 * 0.01), 1e-12);
+  const double of_root = slam::MeasurementNoiseConfig().common_root_m;
+  EXPECT_NEAR(of_trunk(0, 0), of_root * of_root, 1e-12);
   EXPECT_NEAR(of_trunk(1, 1), of_trunk(0, 0), 1e-12);
   EXPECT_EQ(of_trunk(2, 2), 0);
   EXPECT_GT(of_trunk(5, 5), 0) << "of the radius the model knows nothing";

@@ -136,6 +136,21 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReported) {
   }
 }
 
+TEST(Slam, GivenThePosesPlacesAreKnownBetterAndSizesAsWell) {
+  Drive drive(honest_config(), Robot(ring_of_objects(12, 5), {}, 1));
+  drive.along(loop(12, 1, 1));
+  const objects::ObjectMap reported = drive.slam.reported_map();
+  const objects::ObjectMap given = drive.slam.map_given_poses();
+  ASSERT_EQ(given.objects.size(), reported.objects.size());
+  for (std::size_t i = 0; i < given.objects.size(); ++i) {
+    const bool cuboid = is_cuboid(given.objects[i].model);
+    const Eigen::VectorXd ratio = given.objects[i].covariance.diagonal().cwiseQuotient(
+        reported.objects[i].covariance.diagonal());
+    EXPECT_LT(ratio[cuboid ? 3 : 0], 0.9);
+    EXPECT_NEAR(ratio[cuboid ? 6 : 5], 1, 0.1);
+  }
+}
+
 TEST(Slam, TwoRunsAreIdentical) {
   std::string maps[2];
   for (std::string& bytes : maps) {
