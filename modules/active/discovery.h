@@ -18,10 +18,9 @@ namespace saker::active {
 /// A mapped object of a target class that is no target's, has been in its place for a while and
 /// lies in the geofence becomes a target. A target that has no object, while nothing but what is
 /// mapped stands at its place and no incomplete object near it, is dismissed: it is not there, or
-/// the same as another. When the
-/// policy has nothing left, the geofence is swept, if so configured, and the policy goes on
-/// whenever the sweep finds a target. All of that is finite: targets have a ceiling and are
-/// dismissed once, a stop of the sweep is closed once, and each has a deadline.
+/// the same as another. When the policy has nothing left, the geofence is swept, if so configured,
+/// and the policy goes on whenever the sweep finds a target. All of that is finite: targets have a
+/// ceiling and are dismissed once, a stop of the sweep is closed once, and each has a deadline.
 class Discovery : public Policy {
  public:
   /// Throws Error where the geofence is to be swept and is too large.

@@ -25,12 +25,11 @@ struct FacesConfig {
 /// What a view tells of a box, face by face: each face that the eye looks at as well as the fitted
 /// model says of where it is, the others only as well as their upper edges do, and in those windows
 /// alone that show the box from end to end. Views from one side, however many, do not tell where
-/// the other one is. \param covariance  of [x, y, length, width] (m²), as fitted to windows from
-/// there that show both
-///                    ends
-/// \param whole      share of such windows
-/// \param eye        in the box's frame, m
-/// \param size       length and width, m
+/// the other one is.
+/// \param covariance  of [x, y, length, width], m²: of a window that shows both ends
+/// \param whole       share of such windows
+/// \param eye         in the box's frame, m
+/// \param size        length and width, m
 [[nodiscard]] Covariance by_faces(const Covariance& covariance, double whole,
                                   const Eigen::Vector2d& eye, const Eigen::Vector2d& size,
                                   const FacesConfig& config);

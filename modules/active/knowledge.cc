@@ -1,8 +1,5 @@
 #include "active/knowledge.h"
 
-#include <algorithm>
-#include <map>
-
 namespace saker::active {
 namespace {
 

@@ -241,8 +241,7 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   const int index = choice.together.front();
   const Target& target = targets_[index];
   const Eigen::MatrixXd common = model_.common(target.class_id);
-  const Belief belief = expected_of(viewpoint, index);
-  Eigen::Matrix4d covariance = belief.covariance();
+  Eigen::Matrix4d covariance = expected_of(viewpoint, index).covariance();
   if (!pams_.common_counts) covariance.topLeftCorner(common.rows(), common.cols()) += common;
   Expectation expected;
   expected.viewpoint_id = viewpoint.id;

@@ -50,8 +50,8 @@ struct MeasurementNoiseConfig {
     v.field(
         "shared_cells", shared_cells, {1, 10000}, "",
         "view cells that say as much of a vehicle's size as the graph believes of one, with fitted "
-        "noise: among neighbours errors are larger than on spirals; by the NEES of ten "
-        "missions");
+        "noise: among neighbours errors are larger than on spirals; by the NEES of "
+        "eighteen missions");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

@@ -195,11 +195,27 @@ void Slam::optimise(const core::Budget& budget, SlamUpdate& report) {
 }
 
 objects::ObjectMap Slam::map() const {
+  return map_with([](const Landmark&) { return Eigen::MatrixXd(); });
+}
+
+objects::ObjectMap Slam::map_given_poses() const {
+  std::vector<Keyframe> poses = trajectory_.keyframes();
+  const Chain own{&poses};
+  return map_with([&](const Landmark& landmark) {
+    return named_covariance(landmark, covariance_given_poses(landmark, {&own, 1}, config_.graph));
+  });
+}
+
+objects::ObjectMap Slam::map_with(
+    const std::function<Eigen::MatrixXd(const Landmark&)>& covariance) const {
   objects::ObjectMap map;
   for (const Landmark& landmark : landmarks_) {
     if (!stands(landmark, config_.landmarks)) continue;
+    objects::MapObject object = map_object(landmark, table_);
+    object.covariance = covariance(landmark);
+    widen(object);
     const bool complete = believed(landmark, config_.landmarks);
-    (complete ? map.objects : map.incomplete).push_back(map_object(landmark, table_));
+    (complete ? map.objects : map.incomplete).push_back(std::move(object));
   }
   map.ground = ground_.planes(trajectory_);
   return map;
@@ -217,41 +233,21 @@ Slam::MapWithCovariance Slam::map_with_covariance() const {
   return result;
 }
 
-objects::ObjectMap Slam::map_given_poses() const {
-  objects::ObjectMap map = this->map();
-  std::vector<Keyframe> poses = trajectory_.keyframes();
-  const Chain own{&poses};
-  for (auto* objects : {&map.objects, &map.incomplete}) {
-    for (objects::MapObject& object : *objects) {
-      const Landmark& landmark =
-          *std::ranges::find(landmarks_, object.id, [](const Landmark& l) { return l.id; });
-      object.covariance =
-          named_covariance(landmark, covariance_given_poses(landmark, {&own, 1}, config_.graph));
-    }
-  }
-  widen(map);
-  return map;
-}
-
 objects::ObjectMap Slam::reported_map() const {
   objects::ObjectMap map = map_with_covariance().map;
-  widen(map);
+  for (objects::MapObject& object : map.objects) widen(object);
   return map;
 }
 
 /// By what windows share.
-void Slam::widen(objects::ObjectMap& map) const {
+void Slam::widen(objects::MapObject& object) const {
+  if (object.covariance.size() == 0) return;
   MeasurementNoiseConfig noise = config_.noise;
   if (config_.measurement_noise == NoiseSource::fitted) {  // cells count once; of radii windows do
     noise.shared_length = noise.shared_width = noise.shared_cells;
     noise.shared_place = noise.shared_root = 1;
   }
-  for (auto* objects : {&map.objects, &map.incomplete}) {
-    for (objects::MapObject& object : *objects) {
-      if (object.covariance.size() == 0) continue;
-      object.covariance = widened(object.model, object.covariance, noise);
-    }
-  }
+  object.covariance = widened(object.model, object.covariance, noise);
 }
 
 CovarianceReport Slam::covariance(std::span<const int> ids) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -149,7 +150,9 @@ class Slam {
   }
 
  private:
-  void widen(objects::ObjectMap& map) const;
+  [[nodiscard]] objects::ObjectMap map_with(
+      const std::function<Eigen::MatrixXd(const Landmark&)>& covariance) const;
+  void widen(objects::MapObject& object) const;
   [[nodiscard]] Chain chain();
   void record();
   void retire();

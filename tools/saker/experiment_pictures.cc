@@ -153,7 +153,7 @@ void write_error_picture(const std::filesystem::path& file, const std::vector<Ta
   core::Extent extent;
   extent.include({-kReach - 2 * kBin, -2 * kBin});
   extent.include({kReach + 2 * kBin, kHighest});
-  core::Picture picture(extent, 1000);
+  core::Picture picture(extent, 1000, core::ScaleBar::hidden);
   draw_error_axis(picture);
   std::vector<core::LegendEntry> legend;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -188,7 +188,7 @@ void write_calibration_picture(const std::filesystem::path& file, const std::str
   core::Extent extent;
   extent.include({-0.1, -0.1});
   extent.include({1.1, 1.1});
-  core::Picture picture(extent, 900);
+  core::Picture picture(extent, 900, core::ScaleBar::hidden);
   picture.polyline(Points{{0, 1.1}, {0, 0}, {1.1, 0}}, colours::kInk, 1);
   for (const double ratio : {0.8, 1.0, 1.25}) {
     const double end = std::min(1.1, 1.1 / ratio);
