@@ -68,6 +68,7 @@ struct GoalsConfig {
 struct VisitConfig {
   int sides = 1;
   double separation_deg = 120;
+  bool between = false;
   double dwell_s = 3.0;
   double oblique_worth_m = 0;
   double unknown_worth_m = 5;
@@ -80,6 +81,9 @@ struct VisitConfig {
             "opposite corners all four edges are seen");
     v.field("separation_deg", separation_deg, {10, 180}, "deg",
             "least angle between sides, at most 180 / (sides − 1): each finds room then");
+    v.field("between", between, "",
+            "whether a vehicle of which nobody has seen how long it is is looked at from more "
+            "sides, half as far apart, when there are no others");
     v.field("dwell_s", dwell_s, {0, 60}, "s",
             "in view from a side: five windows, after which SLAM believes in an object");
     v.field("oblique_worth_m", oblique_worth_m, {0, 100}, "m",

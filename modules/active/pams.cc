@@ -11,6 +11,7 @@ namespace {
 
 ActiveConfig searching(ActiveConfig config, const PamsConfig& pams) {
   config.visit_policy.sides = pams.search_sides;
+  config.visit_policy.between = pams.search_between;
   return config;
 }
 

@@ -31,6 +31,7 @@ struct PamsConfig {
   double most_drift_m = 0.3;
   int most_views = 12;
   int search_sides = 2;
+  bool search_between = false;
   double way_step_m = 1;
   double window_s = 0.5;
 
@@ -49,6 +50,7 @@ struct PamsConfig {
     config.at_once = 4;
     config.replan = true;
     config.drift_counts = true;
+    config.search_between = true;
     return config;
   }
 
@@ -93,6 +95,7 @@ struct PamsConfig {
     v.field("most_views", most_views, {1, 100}, "", "viewpoints flown to a target");
     v.field("search_sides", search_sides, {1, 4}, "",
             "from which a target that is not in the map is looked for: behind what hides it, too");
+    v.field("search_between", search_between, "", "the same as active.visit.between");
     v.field("window_s", window_s, {0, 60}, "s",
             "in view from a cell until the map knows it better, for what is predicted: SLAM counts "
             "a cell from its first window on");

@@ -19,12 +19,19 @@ class Sides {
   /// Whether a view from there could make another side.
   [[nodiscard]] bool apart(double bearing) const;
 
+  /// From now on sides count that are half as far from those before.
+  void also_between() {
+    if (!between_) separation_ /= 2;
+    between_ = true;
+  }
+
   [[nodiscard]] int count() const { return static_cast<int>(sides_.size()); }
 
  private:
   std::vector<double> dwell_s_;
   double least_dwell_s_;
   double separation_;
+  bool between_ = false;
   std::vector<double> sides_;  ///< rad, middles of their bins
 };
 

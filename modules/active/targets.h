@@ -57,7 +57,8 @@ struct Target {
   objects::Cuboid extent;  ///< world: its object's, or else the prior's with its margin
   Covariance covariance;   ///< of its mapped object, given the poses; empty without one
   Eigen::Vector3d prior_place = Eigen::Vector3d::Constant(NAN);  ///< world, m
-  int object_id = -1;  ///< the mapped object's; −1: none yet
+  int object_id = -1;       ///< the mapped object's; −1: none yet
+  bool incomplete = false;  ///< the map has an object there of which nobody saw how long it is
   TargetStatus status = TargetStatus::pending;
   std::string reason;       ///< why it is visited with fewer sides, or unreachable
   bool discovered = false;  ///< not in the prior map

@@ -25,10 +25,23 @@ void VisitPolicy::look(int index) {
   const Eigen::Vector3d to_body = body_ - targets_[index].place();
   if (!sides_[index].look(std::atan2(to_body.y(), to_body.x()), elapsed_s_)) return;
   saw_something_new(index);
-  if (sides_[index].count() >= config_.visit_policy.sides) close(index, seen_status(index), "");
+  const bool all = sides_[index].count() >= config_.visit_policy.sides;
+  if (all && !end_is_missing(index)) close(index, seen_status(index), "");
 }
 
 bool VisitPolicy::choose(int index) {
+  if (choose_side(index)) return true;
+  if (!end_is_missing(index) || sides_[index].count() == 0) return false;
+  sides_[index].also_between();
+  return choose_side(index);
+}
+
+/// It is worth more sides than others.
+bool VisitPolicy::end_is_missing(int index) const {
+  return config_.visit_policy.between && targets_[index].incomplete;
+}
+
+bool VisitPolicy::choose_side(int index) {
   candidates_ = viewpoints_of(index);
   const Candidate* best = nullptr;
   for (Candidate& candidate : candidates_) {

@@ -12,7 +12,8 @@ namespace saker::active {
 /// in the order of the tour.
 ///
 /// A target is visited when it was in view for long enough from several sides (opposite ones, where
-/// the vehicle can get there). What comes into view under way counts.
+/// the vehicle can get there). What comes into view under way counts. Where the map has it but
+/// nobody saw how long it is, views from between those sides may follow.
 class VisitPolicy : public TouringPolicy {
  public:
   VisitPolicy(const ActiveConfig& config, TargetList targets, InGeofence in_geofence);
@@ -24,6 +25,8 @@ class VisitPolicy : public TouringPolicy {
   [[nodiscard]] std::string seen_from(int index) const override;
 
  private:
+  [[nodiscard]] bool end_is_missing(int index) const;
+  [[nodiscard]] bool choose_side(int index);
   [[nodiscard]] bool keeps_goal(int index, const Candidate* best) const;
   void judge(Candidate& candidate, int index) const;
   [[nodiscard]] double score(const Candidate& candidate) const;

@@ -15,13 +15,17 @@ double cylinder_gate_m(const Model& a, const Model& b, const DuplicateConfig& co
   return std::max(config.cylinder_distance_m, overlap);
 }
 
+/// Of the smaller footprint, 0 … 1; of cylinders 0.
+double overlap(const Model& a, const Model& b) {
+  if (!is_cuboid(a) || !is_cuboid(b)) return 0;
+  return footprint_overlap(std::get<objects::Cuboid>(a), std::get<objects::Cuboid>(b));
+}
+
 /// As when a first view had the heading wrong: the centres may lie outside of each other then.
 bool stand_on_one_ground(const Model& a, const Model& b, double least_overlap,
                          double height_gate_m) {
-  if (!is_cuboid(a) || !is_cuboid(b)) return false;
   if (std::abs(objects::place(a).z() - objects::place(b).z()) > height_gate_m) return false;
-  return footprint_overlap(std::get<objects::Cuboid>(a), std::get<objects::Cuboid>(b)) >
-         least_overlap;
+  return overlap(a, b) > least_overlap;
 }
 
 bool one_object(const Landmark& a, const Landmark& b, const DuplicateConfig& config) {
@@ -45,6 +49,26 @@ bool is_part_of(const Landmark& part, const Landmark& whole, const LandmarkConfi
 }
 
 }  // namespace
+
+void count_on_ground(std::vector<Landmark>& landmarks, std::span<const Candidate> candidates,
+                     const DuplicateConfig& config) {
+  for (Landmark& landmark : landmarks) {
+    bool measured = false;
+    std::vector<const Model*> in_part;
+    for (const Candidate& candidate : candidates) {
+      const double shared = overlap(candidate.in_world, landmark.model);
+      if (candidate.measurement->moving || shared <= config.cuboid_overlap) continue;
+      measured = true;
+      if (shared < config.part_overlap) in_part.push_back(&candidate.in_world);
+    }
+    if (!measured) continue;
+    const bool two = std::ranges::any_of(in_part, [&](const Model* a) {
+      return std::ranges::any_of(
+          in_part, [&](const Model* b) { return overlap(*a, *b) <= config.beside_overlap; });
+    });
+    ++(two ? landmark.seen_as_two : landmark.seen_as_one);
+  }
+}
 
 int merge_duplicates(std::vector<Landmark>& landmarks, const DuplicateConfig& config,
                      const LandmarkConfig& landmark_config) {

@@ -318,6 +318,12 @@ bool comes_back(const Landmark& landmark, const LandmarkConfig& config) {
   });
 }
 
+bool lies_across_two(const Landmark& landmark, const LandmarkConfig& config) {
+  const int windows = landmark.seen_as_one + landmark.seen_as_two;
+  return landmark.seen_as_two >= config.two_windows &&
+         landmark.seen_as_two >= config.two_share * windows;
+}
+
 int naming_turn(const Landmark& landmark) {
   if (!is_cuboid(landmark.model)) return 0;
   const auto& cuboid = std::get<Cuboid>(landmark.model);

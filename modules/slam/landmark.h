@@ -24,6 +24,8 @@ struct LandmarkConfig {
   double class_clamp = 0.05;
   double clutter_probability = 0.6;
   double least_log_odds = 6;
+  int two_windows = 3;
+  double two_share = 0.2;
   double moving_distance_m = 1.0;
   double vehicle_length_m = 5;
   double sure_sd = 1.4;
@@ -60,6 +62,12 @@ struct LandmarkConfig {
             "segmentation wavers about bushes and walls");
     v.field("least_log_odds", least_log_odds, {-100, 100}, "",
             "of an object against clutter, the windows' summed, before it is believed");
+    v.field("two_windows", two_windows, {1, 1000}, "",
+            "in which two objects beside each other were measured on a vehicle's ground: it was "
+            "laid across both");
+    v.field("two_share", two_share, {0, 1}, "",
+            "that those must be of all windows that measured something there: from afar two "
+            "fronts seem one, but one vehicle seldom seems two");
     v.field("moving_distance_m", moving_distance_m, {0.2, 20}, "m",
             "by which an object's measured footprints reach beyond one object's length: it moves");
     v.field("vehicle_length_m", vehicle_length_m, {2, 20}, "m",
@@ -137,9 +145,11 @@ struct Landmark {
       class_log;        ///< of the fused class probability, one an entry of the class table
   double log_odds = 0;  ///< of an object against clutter
   Eigen::Vector2d front =
-      Eigen::Vector2d::Zero();    ///< log-odds that the front is along +x, along +y
-  int seen = 0;                   ///< windows in which it was measured
-  int expected = 0;               ///< windows in which it should have been, `seen` included
+      Eigen::Vector2d::Zero();  ///< log-odds that the front is along +x, along +y
+  int seen = 0;                 ///< windows in which it was measured
+  int expected = 0;             ///< windows in which it should have been, `seen` included
+  int seen_as_one = 0,
+      seen_as_two = 0;            ///< windows with one, with two beside each other, on its ground
   int seen_moving = 0;            ///< windows in which what was measured there moved
   std::vector<Footprint> recent;  ///< the last windows', oldest first; one track without a gap
   bool moving =
@@ -212,6 +222,10 @@ void remember(Landmark& landmark, const Observation& observation);
 /// Whether the last footprint stands where it stood before others stood elsewhere: what was taken
 /// for one object are two.
 [[nodiscard]] bool comes_back(const Landmark& landmark, const LandmarkConfig& config);
+
+/// Whether what was measured on its ground are two objects beside each other: a first view joined
+/// them.
+[[nodiscard]] bool lies_across_two(const Landmark& landmark, const LandmarkConfig& config);
 
 /// Quarters that turn a cuboid's frame to its name: the longer edge is the length, x points to the
 /// front.

@@ -114,6 +114,7 @@ std::vector<Candidate> Slam::accepted(const objects::Detections& detections,
 }
 
 void Slam::integrate(const std::vector<Candidate>& candidates, SlamUpdate& report) {
+  count_on_ground(landmarks_, candidates, config_.duplicates);
   const std::vector<int> landmark_of =
       associate(candidates, landmarks_, table_, config_.association);
   if (!candidates.empty()) expect(landmark_of);
@@ -160,8 +161,9 @@ void Slam::expect(const std::vector<int>& measured) {
 void Slam::review(SlamUpdate& report) {
   report.merged = merge_duplicates(landmarks_, config_.duplicates, config_.landmarks);
   const auto of_two = [this](const Landmark& landmark) {
-    return !landmark.moving && moves(landmark, config_.landmarks) &&
-           comes_back(landmark, config_.landmarks);
+    const bool wanders = moves(landmark, config_.landmarks);
+    return !landmark.moving && (lies_across_two(landmark, config_.landmarks) ||
+                                (wanders && comes_back(landmark, config_.landmarks)));
   };
   report.removed += static_cast<int>(std::erase_if(landmarks_, of_two));
   for (Landmark& landmark : landmarks_) {

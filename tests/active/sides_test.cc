@@ -38,6 +38,17 @@ TEST(Sides, AnotherCountsOnlyWhenItIsFarEnoughAround) {
   EXPECT_EQ(sides.count(), 2);
 }
 
+TEST(Sides, BetweenThemTheLeastAngleIsHalved) {
+  Sides sides = two_sides();
+  sides.look(0, 3);
+  EXPECT_FALSE(sides.apart(90 * kDegree));
+  for (int again = 0; again < 2; ++again) {
+    sides.also_between();
+    EXPECT_TRUE(sides.apart(60 * kDegree));
+    EXPECT_FALSE(sides.apart(59 * kDegree));
+  }
+}
+
 TEST(Sides, TheSameSideNeverCountsTwice) {
   Sides sides = two_sides();
   ASSERT_TRUE(sides.look(1, 3));

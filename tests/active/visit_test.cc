@@ -70,6 +70,32 @@ TEST(Visit, FliesToOppositeObliqueViewsOfAMappedVehicle) {
   }
 }
 
+TEST(Visit, AVehicleWhoseEndNobodySawIsLookedAtFromBetweenItsSidesToo) {
+  const Cuboid end_hidden = car(20, 5, 0.7);
+  for (const bool between : {false, true}) {
+    ActiveConfig config = two_sided();
+    config.visit_policy.between = between;
+    Flight flight({end_hidden}, everywhere, config);
+    objects::ObjectMap map;
+    map.incomplete = {vehicle(7, end_hidden)};
+    flight.input.map = std::make_shared<const objects::ObjectMap>(map);
+    EXPECT_LT(flight.fly(300), 300);
+    EXPECT_EQ(flight.plan.visited, 1);
+    EXPECT_EQ(flight.goals.size() > 2, between) << flight.goals.size();
+    EXPECT_LE(flight.goals.size(), 6U);
+  }
+}
+
+TEST(Visit, AMappedVehicleNeedsNoSidesBetween) {
+  ActiveConfig config = two_sided();
+  config.visit_policy.between = true;
+  Flight flight(kStreet, everywhere, config);
+  flight.map(kStreet);
+  EXPECT_LT(flight.fly(300), 300);
+  EXPECT_EQ(flight.plan.done, 4);
+  EXPECT_LE(flight.goals.size(), 8U);
+}
+
 TEST(Visit, StaysUntilTheTargetWasInViewForLongEnough) {
   Flight flight({car(20, 0)});
   flight.decide();

@@ -35,6 +35,14 @@ struct Scene {
     for (const auto& m : measurements) candidates.push_back({&m, {m.model, {}}, m.model, 10});
     return associate(candidates, landmarks, kTable, {});
   }
+  /// A window that measured these, and nothing else.
+  void window(const std::vector<Cuboid>& cars) {
+    measurements.clear();
+    for (const Cuboid& one : cars) measure(one, kVehicle);
+    std::vector<Candidate> candidates;
+    for (const auto& m : measurements) candidates.push_back({&m, {m.model, {}}, m.model, 10});
+    count_on_ground(landmarks, candidates, {});
+  }
   void measure(const Model& model, objects::ClassId id) {
     measurements.emplace_back().model = model;
     measurements.back().class_id = id;
@@ -106,6 +114,40 @@ TEST(Duplicates, BoxAboutPartsTellsNothingOfAVehicleWhoseEndsWereSeen) {
   EXPECT_EQ(landmarks[0].seen, 10);
   EXPECT_EQ(landmarks[0].observations.size(), 1U);
   EXPECT_NEAR(objects::place(landmarks[0].model).y(), 0, 1e-9);
+}
+
+TEST(Duplicates, ABoxAcrossTwoNeighboursIsTwoOnceBothWereSeenInAShareOfItsWindows) {
+  const Cuboid across = car(0, 0, std::numbers::pi / 2);
+  const Cuboid left = car(0.8, 1.3, 0), right = car(0.8, -1.3, 0);
+  Scene scene;
+  scene.landmarks = {landmark_at(0, across, kVehicle)};
+  for (int i = 0; i < 12; ++i) scene.window({across});
+  for (int i = 0; i < 2; ++i) scene.window({left, right});
+  EXPECT_FALSE(lies_across_two(scene.landmarks[0], {}));
+  scene.window({right, left});
+  EXPECT_TRUE(lies_across_two(scene.landmarks[0], {}));
+  scene.window({across});
+  EXPECT_FALSE(lies_across_two(scene.landmarks[0], {}));
+}
+
+TEST(Duplicates, AVehicleIsOneHoweverItsNeighbourIsMeasured) {
+  Scene scene;
+  scene.landmarks = {landmark_at(0, car(0, 0, 0), kVehicle)};
+  const Cuboid neighbour = car(0, 2.5, 0), across = car(0, 1.2, std::numbers::pi / 2);
+  for (int i = 0; i < 5; ++i) scene.window({car(0.2, 0.1, 0), neighbour});
+  for (int i = 0; i < 5; ++i) scene.window({car(0.2, 0.1, 0), across});
+  scene.window({across});
+  EXPECT_EQ(scene.landmarks[0].seen_as_one, 11);
+  EXPECT_EQ(scene.landmarks[0].seen_as_two, 0);
+}
+
+TEST(Duplicates, AVehicleInPiecesIsOne) {
+  Scene scene;
+  scene.landmarks = {landmark_at(0, car(0, 0, 0), kVehicle)};
+  Cuboid front = car(1.5, 0, 0), back = car(-1.2, 0, 0);
+  front.size.x() = back.size.x() = 1.2;
+  for (int i = 0; i < 5; ++i) scene.window({front, back});
+  EXPECT_FALSE(lies_across_two(scene.landmarks[0], {}));
 }
 
 TEST(Duplicates, EndsThatEitherSawAreKnownHoweverEachNamesThem) {
