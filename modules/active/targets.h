@@ -16,7 +16,7 @@ struct TargetsConfig {
   double height_gate_m = 3.0;
   double keep_m = 1.5;
   double prior_margin_m = 0.5;
-  double known_sd_m = 0.05;
+  double known_sd_m = 0.1;
   int most_targets = 300;
   std::vector<double> default_size_m = {4.5, 1.9, 1.6};
 
@@ -30,8 +30,8 @@ struct TargetsConfig {
     v.field("prior_margin_m", prior_margin_m, {0, 10}, "m",
             "kept in view around a target that is not mapped yet, for its place is rough");
     v.field("known_sd_m", known_sd_m, {0, 10}, "m",
-            "a prior map that knows length and width so well needs no visit; 0: every target is "
-            "visited");
+            "a prior map that knows length and width so well needs no visit: two of it are the "
+            "paper's small error; 0: every target is visited");
     v.field("most_targets", most_targets, {1, 1000}, "",
             "a prior map with more of them is refused: association and tour must fit into a cycle");
     v.field("default_size_m", default_size_m, {0.1, 30}, "m",

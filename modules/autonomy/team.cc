@@ -115,7 +115,7 @@ std::string Team::text() const {
 }
 
 objects::ObjectMap Team::map() const {
-  objects::ObjectMap map = merged_.map_with_covariance().map;
+  objects::ObjectMap map = merged_.reported_map();
   map.frame = takeoff_ ? "base" : "world";
   return map;
 }

@@ -47,7 +47,8 @@ Eigen::VectorXd common_variances(const Model& model, const MeasurementNoiseConfi
     sd.segment<2>(6) << config.common_length_m, config.common_width_m;
   } else {
     sd.head<2>().setConstant(config.common_root_m);
-    sd[5] = config.common_radius_m;
+    const double taper = config.common_taper * std::get<objects::Cylinder>(model).radius;
+    sd[5] = std::hypot(config.common_radius_m, taper);
   }
   return sd.cwiseAbs2();
 }

@@ -347,4 +347,17 @@ Slam::MapWithCovariance MultiRobotSlam::map_with_covariance() const {
   return result;
 }
 
+objects::ObjectMap MultiRobotSlam::reported_map() const {
+  objects::ObjectMap map = map_with_covariance().map;
+  MultiRobotSlam copy = *this;
+  const std::vector<Chain> all = copy.chains();
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const Landmark& landmark = landmarks_[i];
+    Eigen::MatrixXd& covariance = map.objects[i].covariance;
+    widen(covariance, landmark, all, config_);
+    covariance.diagonal() += common_variances(landmark.model, config_.noise);
+  }
+  return map;
+}
+
 }  // namespace saker::slam

@@ -72,6 +72,9 @@ class MultiRobotSlam {
   [[nodiscard]] objects::ObjectMap map() const;
   /// The same with covariances in the world frame, poses marginalised where that succeeds.
   [[nodiscard]] Slam::MapWithCovariance map_with_covariance() const;
+  /// The same as it is given out: widened by what windows share, with what all measurements of an
+  /// object have in common (`slam.noise`). Not of maps that were taken for flights: theirs have it.
+  [[nodiscard]] objects::ObjectMap reported_map() const;
 
  private:
   using OnPath = std::function<bool(std::size_t chain, const Keyframe&)>;

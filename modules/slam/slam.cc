@@ -33,7 +33,29 @@ std::vector<Landmark*> believed_ones(std::vector<Landmark>& landmarks,
   return all;
 }
 
+/// How many windows count for one.
+MeasurementNoiseConfig shared_noise(const SlamConfig& config) {
+  MeasurementNoiseConfig noise = config.noise;
+  if (config.measurement_noise == NoiseSource::fitted) {  // cells count once
+    noise.shared_length = noise.shared_width = noise.shared_cells;
+    noise.shared_radius = noise.shared_radius_cells;
+    noise.shared_place = noise.shared_root = 1;
+  }
+  return noise;
+}
+
+Eigen::MatrixXd given_poses(const Landmark& landmark, Chains chains, const SlamConfig& config) {
+  return named_covariance(landmark, covariance_given_poses(landmark, chains, config.graph));
+}
+
 }  // namespace
+
+void widen(Eigen::MatrixXd& covariance, const Landmark& landmark, Chains chains,
+           const SlamConfig& config) {
+  const Eigen::MatrixXd given = given_poses(landmark, chains, config);
+  if (given.rows() != covariance.rows()) return;  // nothing was measured
+  covariance += widened(landmark.model, given, shared_noise(config)) - given;
+}
 
 Slam::Slam(const SlamConfig& config, const objects::ClassTable& table)
     : config_(core::checked(config, "slam")),
@@ -204,7 +226,8 @@ objects::ObjectMap Slam::map_given_poses() const {
   std::vector<Keyframe> poses = trajectory_.keyframes();
   const Chain own{&poses};
   return map_with([&](const Landmark& landmark) {
-    return named_covariance(landmark, covariance_given_poses(landmark, {&own, 1}, config_.graph));
+    const Eigen::MatrixXd given = given_poses(landmark, {&own, 1}, config_);
+    return given.size() == 0 ? given : widened(landmark.model, given, shared_noise(config_));
   });
 }
 
@@ -215,7 +238,6 @@ objects::ObjectMap Slam::map_with(
     if (!stands(landmark, config_.landmarks)) continue;
     objects::MapObject object = map_object(landmark, table_);
     object.covariance = covariance(landmark);
-    widen(object);
     const bool complete = believed(landmark, config_.landmarks);
     (complete ? map.objects : map.incomplete).push_back(std::move(object));
   }
@@ -237,19 +259,13 @@ Slam::MapWithCovariance Slam::map_with_covariance() const {
 
 objects::ObjectMap Slam::reported_map() const {
   objects::ObjectMap map = map_with_covariance().map;
-  for (objects::MapObject& object : map.objects) widen(object);
-  return map;
-}
-
-/// By what windows share.
-void Slam::widen(objects::MapObject& object) const {
-  if (object.covariance.size() == 0) return;
-  MeasurementNoiseConfig noise = config_.noise;
-  if (config_.measurement_noise == NoiseSource::fitted) {  // cells count once; of radii windows do
-    noise.shared_length = noise.shared_width = noise.shared_cells;
-    noise.shared_place = noise.shared_root = 1;
+  std::vector<Keyframe> poses = trajectory_.keyframes();
+  const Chain own{&poses};
+  for (objects::MapObject& object : map.objects) {
+    const Landmark& landmark = *std::ranges::find(landmarks_, object.id, &Landmark::id);
+    widen(object.covariance, landmark, {&own, 1}, config_);
   }
-  object.covariance = widened(object.model, object.covariance, noise);
+  return map;
 }
 
 CovarianceReport Slam::covariance(std::span<const int> ids) const {

@@ -58,6 +58,11 @@ struct SlamConfig {
   }
 };
 
+/// Widens what a graph says of an object by what windows share of their errors, which the graph
+/// takes for independent: of the measurements alone, not of the poses.
+void widen(Eigen::MatrixXd& covariance, const Landmark& landmark, Chains chains,
+           const SlamConfig& config);
+
 /// What the stage reads in a cycle.
 struct SlamInput {
   Time stamp = 0;
@@ -130,7 +135,7 @@ class Slam {
   };
   [[nodiscard]] MapWithCovariance map_with_covariance() const;
 
-  /// The same as it is given out: widened by what windows share (with fitted noise of radii only).
+  /// The same as it is given out: widened by what windows, or with fitted noise cells, share.
   [[nodiscard]] objects::ObjectMap reported_map() const;
 
   /// Covariances of the named objects, in the order of `ids`; empty matrices for ids that are not
@@ -152,7 +157,6 @@ class Slam {
  private:
   [[nodiscard]] objects::ObjectMap map_with(
       const std::function<Eigen::MatrixXd(const Landmark&)>& covariance) const;
-  void widen(objects::MapObject& object) const;
   [[nodiscard]] Chain chain();
   void record();
   void retire();

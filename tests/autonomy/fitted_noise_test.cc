@@ -184,7 +184,10 @@ TEST(FittedNoise, FixedNoiseChangesNoMeasurementAndAddsWhatIsConfigured) {
   EXPECT_NEAR(of_car(7, 7), config.common_width_m * config.common_width_m, 1e-12);
   const Eigen::MatrixXd of_trunk = map.objects[1].covariance - before.objects[1].covariance;
   EXPECT_NEAR(of_trunk(0, 0), config.common_root_m * config.common_root_m, 1e-12);
-  EXPECT_NEAR(of_trunk(5, 5), config.common_radius_m * config.common_radius_m, 1e-12);
+  const double taper =
+      config.common_taper * std::get<objects::Cylinder>(before.objects[1].model).radius;
+  EXPECT_NEAR(of_trunk(5, 5), config.common_radius_m * config.common_radius_m + taper * taper,
+              1e-12);
   EXPECT_EQ(of_trunk(3, 3), 0);
 }
 

@@ -58,6 +58,26 @@ TEST(Merge, TwoRobotsKnowMoreThanOne) {
   EXPECT_LT(mean(place_errors(merged.map(), world)), alone);
 }
 
+TEST(Merge, WhatIsReportedIsWidenedAndHasWhatMeasurementsHaveInCommon) {
+  const SlamConfig config = honest_config();
+  const Flown flown = fly(ring_of_objects(20, 10), loop(20, 0.6, 1), {}, 11);
+  MultiRobotSlam merged(config, {});
+  (void)merged.add(flown.history, exact(flown.T_town_odom), kPlenty);
+  const objects::ObjectMap own = merged.map_with_covariance().map;
+  const objects::ObjectMap reported = merged.reported_map();
+  ASSERT_EQ(reported.objects.size(), 20U);
+  for (std::size_t i = 0; i < own.objects.size(); ++i) {
+    const bool cuboid = is_cuboid(own.objects[i].model);
+    const int size = cuboid ? 6 : 5;  // length, or radius
+    const double shared = cuboid ? config.noise.shared_length : config.noise.shared_radius;
+    const double common = common_variances(own.objects[i].model, config.noise)[size];
+    EXPECT_GT(common, 0);
+    const double ratio = (reported.objects[i].covariance(size, size) - common) /
+                         own.objects[i].covariance(size, size);
+    EXPECT_NEAR(ratio, shared, 0.2 * shared);  // sizes hardly depend on the poses
+  }
+}
+
 TEST(Merge, TheTakeOffIsAPriorAndNotAConstant) {
   const auto world = ring_of_objects(20, 10);
   const Flown first = fly(world, loop(20, 0.6, 1), {}, 21),

@@ -111,8 +111,8 @@ TEST(Slam, CovarianceIsConsistentWithTheErrors) {
   EXPECT_LT(squared / dimensions, 1.3);
 }
 
-/// With fitted noise cells share it instead, but for radii, of which no fitted model knows.
-TEST(Slam, WhatWindowsShareWidensWhatIsReported) {
+/// With fitted noise cells share it instead.
+TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
   for (const NoiseSource source : {NoiseSource::fixed, NoiseSource::fitted}) {
     SlamConfig config = honest_config();
     config.measurement_noise = source;
@@ -120,17 +120,23 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReported) {
     drive.along(loop(12, 1, 1));
     const objects::ObjectMap own = drive.slam.map_with_covariance().map;
     const objects::ObjectMap reported = drive.slam.reported_map();
+    const objects::ObjectMap given = drive.slam.map_given_poses();
     ASSERT_EQ(reported.objects.size(), own.objects.size());
     const bool all = source == NoiseSource::fixed;
+    const MeasurementNoiseConfig& noise = config.noise;
     for (std::size_t i = 0; i < own.objects.size(); ++i) {
-      const Eigen::VectorXd wider = reported.objects[i].covariance.diagonal().cwiseQuotient(
-          own.objects[i].covariance.diagonal());
+      const auto expect_widened = [&](int row, double windows) {
+        const double measured = given.objects[i].covariance(row, row) / windows;
+        EXPECT_NEAR(reported.objects[i].covariance(row, row) - own.objects[i].covariance(row, row),
+                    (windows - 1) * measured, 1e-9);
+      };
       if (is_cuboid(own.objects[i].model)) {
-        EXPECT_NEAR(wider[6], all ? config.noise.shared_length : config.noise.shared_cells, 1e-9);
-        EXPECT_NEAR(wider[8], 1, 1e-9);
+        expect_widened(3, all ? noise.shared_place : 1);
+        expect_widened(6, all ? noise.shared_length : noise.shared_cells);
+        expect_widened(8, 1);
       } else {
-        EXPECT_NEAR(wider[0], all ? config.noise.shared_root : 1, 1e-9);
-        EXPECT_NEAR(wider[5], config.noise.shared_radius, 1e-9);
+        expect_widened(0, all ? noise.shared_root : 1);
+        expect_widened(5, all ? noise.shared_radius : noise.shared_radius_cells);
       }
     }
   }

@@ -124,7 +124,7 @@ void TeamFlights::fly_all() {
 }
 
 objects::ObjectMap TeamFlights::map() const {
-  objects::ObjectMap map = merged_.map_with_covariance().map;
+  objects::ObjectMap map = merged_.reported_map();
   map.frame = "base";
   return map;
 }
