@@ -1,5 +1,6 @@
 #include "active/visit.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/se3.h"
@@ -86,8 +87,8 @@ double VisitPolicy::score(const Candidate& candidate) const {
 std::string VisitPolicy::seen_from(int index) const {
   const int sides = sides_[index].count();
   if (sides == 0) return "";
-  return "seen from " + std::to_string(sides) + " of " +
-         std::to_string(config_.visit_policy.sides) + " sides";
+  const int wanted = std::max(config_.visit_policy.sides, sides);
+  return "seen from " + std::to_string(sides) + " of " + std::to_string(wanted) + " sides";
 }
 
 }  // namespace saker::active

@@ -106,12 +106,13 @@ class Graph {
     const std::vector<Keyframe>& keyframes = *chain.keyframes;
     for (std::size_t k = 0; k < keyframes.size(); ++k) {
       write_pose(keyframes[k].T_world_lidar, pose(c, k));
+      if (k < held(chain)) continue;
       problem_.AddParameterBlock(pose(c, k), kPoseParameters, &pose_manifold_);
-      if (k < held(chain)) problem_.SetParameterBlockConstant(pose(c, k));
-      if (k == 0 || k < held(chain)) continue;
+      if (k == 0) continue;
       const SE3 motion = keyframes[k - 1].T_odom_lidar.inverse() * keyframes[k].T_odom_lidar;
       problem_.AddResidualBlock(new OdometryFactor(motion, keyframes[k].covariance), nullptr,
                                 pose(c, k - 1), pose(c, k));
+      if (k == held(chain)) problem_.SetParameterBlockConstant(pose(c, k - 1));
     }
     if (keyframes.empty() || held(chain) > 0) return;
     problem_.AddResidualBlock(new PoseFactor(chain.prior->pose, chain.prior->covariance), nullptr,
@@ -130,11 +131,13 @@ class Graph {
       const auto c = static_cast<std::size_t>(observation.chain);
       const int k = observation.keyframe - chains[c].keyframes->front().serial;
       if (k < 0) continue;
+      double* from = pose(c, static_cast<std::size_t>(k));
       const Gaussian& measured = observation.measured;
       problem_.AddResidualBlock(
           object_factor(measured.model, measured.covariance, hidden_ends_of(observation, config_))
               .release(),
-          weighted_loss(weights[i]), pose(c, static_cast<std::size_t>(k)), parameters);
+          weighted_loss(weights[i]), from, parameters);
+      if (static_cast<std::size_t>(k) < held(chains[c])) problem_.SetParameterBlockConstant(from);
     }
   }
 

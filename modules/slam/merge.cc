@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "slam/flight_lengths.h"
-
 namespace saker::slam {
 namespace {
 
@@ -92,7 +90,7 @@ MergeReport MultiRobotSlam::add(const History& history,
   }
   track(chain);
   (void)close_loop(chain, report);
-  settle(budget, report);
+  settle(chain, budget, report);
   return report;
 }
 
@@ -226,13 +224,22 @@ bool MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
   return true;
 }
 
-/// Over this flight, what closing a loop moved its end by; the others' wait for the final solves.
+/// Over this flight, what closing a loop moved its end by; the others' wait for the final solve.
 void MultiRobotSlam::spread(std::size_t chain) {
+  (void)solve_flight(chain, config_.merge.first_scale,
+                     core::Budget::iterations(config_.merge.iterations));
+}
+
+/// One flight and what it saw, the other flights held.
+SolveReport MultiRobotSlam::solve_flight(std::size_t chain, double scale,
+                                         const core::Budget& budget) {
   std::vector<Chain> all = chains();
   for (std::size_t c = 0; c < all.size(); ++c)
     if (c != chain) all[c].free_from = all[c].keyframes->size();
-  (void)solve_graph(all, pointers(landmarks_), whole_graph(config_.merge.first_scale),
-                    core::Budget::iterations(config_.merge.iterations));
+  std::vector<Landmark*> seen;
+  for (Landmark& landmark : landmarks_)
+    if (seen_from(landmark, static_cast<int>(chain), 0)) seen.push_back(&landmark);
+  return solve_graph(all, seen, whole_graph(scale), budget);
 }
 
 /// Recent objects follow the correction; those that are old ones become one with them.
@@ -253,16 +260,17 @@ GraphConfig MultiRobotSlam::whole_graph(double scale) const {
   return graph;
 }
 
-SolveReport MultiRobotSlam::solve_narrowing(const core::Budget& budget) {
-  const std::vector<Chain> all = chains();
-  const std::vector<Landmark*> landmarks = pointers(landmarks_);
+/// The others have settled: while the kernel is wide only this flight moves. What it took for new
+/// because it had drifted lies on what it is by then.
+SolveReport MultiRobotSlam::solve_narrowing(std::size_t chain, const core::Budget& budget) {
   for (double scale = config_.merge.first_scale; scale > 1; scale /= 2)
-    (void)solve_graph(all, landmarks, whole_graph(scale), budget);
-  return solve_graph(all, landmarks, whole_graph(1), budget);
+    (void)solve_flight(chain, scale, budget);
+  (void)merge_duplicates(landmarks_, config_.duplicates, landmark_config_);
+  return solve_graph(chains(), pointers(landmarks_), whole_graph(1), budget);
 }
 
-void MultiRobotSlam::settle(const core::Budget& budget, MergeReport& report) {
-  report.solve = solve_narrowing(budget);
+void MultiRobotSlam::settle(std::size_t chain, const core::Budget& budget, MergeReport& report) {
+  report.solve = solve_narrowing(chain, budget);
   const int joined = merge_duplicates(landmarks_, config_.duplicates, landmark_config_);
   const int apart = split();
   // Two objects cannot stand on one ground: there a flight mismeasured the one that it saw.
@@ -270,7 +278,6 @@ void MultiRobotSlam::settle(const core::Budget& budget, MergeReport& report) {
   report.split = apart - rejoined;
   if (joined + apart > 0)
     report.solve = solve_graph(chains(), pointers(landmarks_), whole_graph(1), budget);
-  weigh_flights(landmarks_, chains(), whole_graph(1), config_.merge, budget);
 }
 
 /// Where one flight's measurements of an object lie far from those of another flight they are of

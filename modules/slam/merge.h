@@ -94,8 +94,9 @@ class MultiRobotSlam {
   void spread(std::size_t chain);
   void join(const Alignment& loop);
   [[nodiscard]] GraphConfig whole_graph(double scale) const;  ///< of the robust kernel
-  SolveReport solve_narrowing(const core::Budget& budget);
-  void settle(const core::Budget& budget, MergeReport& report);
+  SolveReport solve_flight(std::size_t chain, double scale, const core::Budget& budget);
+  SolveReport solve_narrowing(std::size_t chain, const core::Budget& budget);
+  void settle(std::size_t chain, const core::Budget& budget, MergeReport& report);
   [[nodiscard]] int split();
   [[nodiscard]] std::vector<int> disagreeing(const Landmark& landmark, Chains chains) const;
   [[nodiscard]] Survey survey(const std::vector<const Landmark*>& landmarks,

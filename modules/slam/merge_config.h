@@ -11,8 +11,6 @@ struct MergeConfig {
   int iterations = 10;
   double first_scale = 8;
   double disagreement = 0.15;
-  double near_m = 18;
-  double shorter_flight = 0.0625;
   int loop_every = 40;
   int loop_keyframes = 120;
   double loop_shift_m = 6;
@@ -35,12 +33,6 @@ struct MergeConfig {
     v.field("disagreement", disagreement, {0, 1}, "",
             "robust weight below which one flight's measurements of an object speak of another "
             "object");
-    v.field("near_m", near_m, {1, 200}, "m",
-            "a flight's windows of a vehicle that tell its length; set when detection lost ends "
-            "from farther away and said that it was sure");
-    v.field("shorter_flight", shorter_flight, {0.001, 1}, "",
-            "weight of the squared error of a flight that measured a vehicle shorter than it is: "
-            "an end that was hidden from all its windows");
     v.field("loop_every", loop_every, {1, 10000}, "", "new keyframes between searches for loops");
     v.field("loop_keyframes", loop_keyframes, {10, 10000}, "",
             "newest keyframes whose new objects may be old ones that drift has moved");

@@ -35,11 +35,16 @@ void check_lot(const RobotConfig& robot, const DivisionConfig& division) {
   }
 }
 
-/// What the robot's program is told: the command line's configuration and what is this robot's own.
-autonomy::Config told(const RobotConfig& robot, autonomy::Config config) {
-  for (const std::string& setting : robot.set) {
+autonomy::Config with_settings(const std::vector<std::string>& settings, autonomy::Config config) {
+  for (const std::string& setting : settings) {
     config = core::config_with_setting(setting, std::move(config));
   }
+  return config;
+}
+
+/// What the robot's program is told: the team's configuration and what is this robot's own.
+autonomy::Config told(const RobotConfig& robot, const autonomy::Config& team) {
+  autonomy::Config config = with_settings(robot.set, team);
   config.mission.height_m = robot.height_m;
   config.active.viewpoints.height_m = robot.height_m;
   config.active.policy = robot.policy;
@@ -60,8 +65,8 @@ simulation::MissionConfig read_site(const std::string& file) {
 
 TeamMission read_team_mission(const std::filesystem::path& file, const autonomy::Config& config) {
   TeamMission mission{.config = core::load_config<TeamMissionConfig>(file, {}),
-                      .name = file.stem().string(),
-                      .base = config};
+                      .name = file.stem().string()};
+  mission.base = with_settings(mission.config.set, config);
   if (mission.config.scenario.empty()) {
     throw Error(fmt::format("{}: scenario: missing, expected a file", file.string()));
   }
@@ -75,7 +80,7 @@ TeamMission read_team_mission(const std::filesystem::path& file, const autonomy:
     try {
       check_name(robot, names);
       check_lot(robot, mission.config.division);
-      mission.robots.push_back(told(robot, config));
+      mission.robots.push_back(told(robot, mission.base));
     } catch (const Error& error) {
       throw Error(fmt::format("{}: robots[{}].{}", file.string(), i, error.what()));
     }

@@ -37,7 +37,7 @@ struct RobotConfig {
     v.field("policy", policy, "", "visit, paper or saker");
     v.field("lot_m", lot_m, {-1e5, 1e5}, "m",
             "corners x1, y1, x2, y2, … of what it is to cover, in base; empty: everything");
-    v.field("set", set, "", "settings of this robot, key=value, over those of the command line");
+    v.field("set", set, "", "settings of this robot, key=value, over the team's");
   }
 };
 
@@ -57,6 +57,7 @@ struct TakeoffSurveyConfig {
 /// What a mission file says: robots that fly one after another over one site.
 struct TeamMissionConfig {
   std::string scenario;
+  std::vector<std::string> set;
   std::vector<RobotConfig> robots;
   TakeoffSurveyConfig takeoff;
   DivisionConfig division;
@@ -67,6 +68,8 @@ struct TeamMissionConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("scenario", scenario, "", "the site, kind mission; from this file's folder");
+    v.field("set", set, "",
+            "settings of all robots and of the base, key=value, over those of the command line");
     v.list("robots", robots, "in the order of their flights");
     v.group("takeoff", takeoff, "how well take-off poses are known");
     v.group("division", division, "whose lot is what");
