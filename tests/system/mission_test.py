@@ -97,6 +97,15 @@ class Mission(ProgramTest):
         told = json.loads((self.out / "R2" / "prior.json").read_text())["objects"]
         self.assertEqual([entry["observations"] for entry in told], [0] * robots[1]["targets"])
 
+    def test_settings_of_the_team_reach_every_robot_and_a_robots_own_come_over_them(self):
+        robots = "  - {name: R1, x_m: -3, set: [mission.preflight_s=2]}\n  - {name: R2, x_m: 3}\n"
+        file = write_mission(self.folder, robots, more="set: [mission.preflight_s=1]\n")
+        run = saker("mission", file, "-o", self.out, "--set", "mission.preflight_s=3")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        ended = [json.loads((self.out / robot / "results.json").read_text())["events"][-1]["t_s"] for robot in ("R1", "R2")]
+        self.assertAlmostEqual(ended[0], 2, delta=0.2)
+        self.assertAlmostEqual(ended[1], 1, delta=0.2)
+
     def test_a_mission_file_that_cannot_be_flown_is_refused_in_one_line(self):
         def refusal(**how):
             return self.refused("mission", write_mission(self.folder, **how), "-o", self.out)
@@ -113,6 +122,7 @@ class Mission(ProgramTest):
         self.assertIn("policy", refusal(robots="  - {name: R1, policy: best}\n"))
         self.assertIn("hight_m", refusal(robots="  - {name: R1, hight_m: 3}\n"))
         self.assertIn("slam.nothing", refusal(robots="  - {name: R1, set: [slam.nothing=1]}\n"))
+        self.assertRegex(refusal(more="set: [slam.nothing=1]\n"), "team.yaml: set: .*slam.nothing")
         self.assertIn("no free place", refusal(robots="  - {name: R1, x_m: 900, y_m: 900}\n"))
         self.assertIn("loss", refusal(more="link: {loss: 2}\n"))
         self.assertIn("gone.yaml", self.refused("mission", self.folder / "gone.yaml", "-o", self.out))

@@ -66,7 +66,11 @@ simulation::MissionConfig read_site(const std::string& file) {
 TeamMission read_team_mission(const std::filesystem::path& file, const autonomy::Config& config) {
   TeamMission mission{.config = core::load_config<TeamMissionConfig>(file, {}),
                       .name = file.stem().string()};
-  mission.base = with_settings(mission.config.set, config);
+  try {
+    mission.base = with_settings(mission.config.set, config);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: set: {}", file.string(), error.what()));
+  }
   if (mission.config.scenario.empty()) {
     throw Error(fmt::format("{}: scenario: missing, expected a file", file.string()));
   }
