@@ -78,7 +78,7 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
 }
 
 Belief Knowledge::expected(const Covariance& covariance, const Knowledge& then) const {
-  Belief belief(covariance, common_);
+  Belief belief = of_map(covariance);
   for (const auto& [id, information] : then.cells_) {
     if (!counted(id)) belief.add(information);
   }

@@ -31,6 +31,9 @@ class Knowledge {
   [[nodiscard]] bool counted(int cell) const { return cells_.contains(cell); }
   [[nodiscard]] int cells() const { return static_cast<int>(cells_.size()); }
 
+  /// What a map that knows the object to `covariance` (given the poses) knows of it.
+  [[nodiscard]] Belief of_map(const Covariance& covariance) const { return {covariance, common_}; }
+
   /// What a map that knows the object to `covariance` (given the poses) by now will know after more
   /// looks.
   /// \param then  of the same target after them

@@ -130,7 +130,7 @@ PamsPolicy::Choice PamsPolicy::choice_among(int index, const std::vector<int>& s
   choice.together = seen_together(index);
   for (const int target : choice.together) {
     choice.known.push_back(known_of(target));
-    choice.problem.objects.push_back(choice.known.back().belief());
+    choice.problem.objects.push_back(belief_of(target, choice.known.back()));
     const double since_m = flown_m_ - looks_[target].first_m();
     choice.problem.drifted_m.push_back(std::isfinite(since_m) ? since_m : 0);
   }
@@ -283,12 +283,20 @@ Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
   return looks;
 }
 
+/// What its views should tell, or what the map has where that is less.
+Belief PamsPolicy::belief_of(int index, const Knowledge& known) const {
+  const Covariance& in_map = targets_[index].covariance;
+  if (!pams_.map_counts || in_map.size() == 0) return known.belief();
+  const Belief told = known.of_map(in_map);
+  return told.entropy() > known.belief().entropy() ? told : known.belief();
+}
+
 Knowledge PamsPolicy::known_of(int index) const {
   return Knowledge(targets_[index], looks_[index], model_, pams_);
 }
 
 bool PamsPolicy::enough(int index, const Knowledge& known) const {
-  return known.belief().entropy() <= pams_.enough_entropy &&
+  return belief_of(index, known).entropy() <= pams_.enough_entropy &&
          class_probability(targets_[index]) >= pams_.least_probability;
 }
 

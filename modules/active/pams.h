@@ -28,7 +28,8 @@ namespace saker::active {
 /// brings more nat a second than that, with the way on to the next target taken into account; a
 /// viewpoint is weighed for the neighbours that it sees, too; the drift of the pose lessens what
 /// later views are worth; what all views have in common sets an end to what is worth flying; a
-/// better viewpoint replaces the one that is flown to. Cost: some 20 ms a decision.
+/// better viewpoint replaces the one that is flown to; where the map knows less of a target than
+/// its views should have told, for they disagree, the map is believed. Cost: some 20 ms a decision.
 class PamsPolicy : public VisitPolicy {
  public:
   PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,
@@ -65,6 +66,7 @@ class PamsPolicy : public VisitPolicy {
   [[nodiscard]] Belief expected_of(const Viewpoint& viewpoint, int index) const;
   [[nodiscard]] Looks looks_until(const Viewpoint& viewpoint, int index) const;
   [[nodiscard]] Knowledge known_of(int index) const;
+  [[nodiscard]] Belief belief_of(int index, const Knowledge& known) const;
   [[nodiscard]] bool enough(int index, const Knowledge& known) const;
   [[nodiscard]] double class_probability(const Target& target) const;
 

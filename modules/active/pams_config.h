@@ -19,6 +19,7 @@ struct PamsConfig {
   double prior_width_m = 0.5;
   FacesConfig faces;
   bool common_counts = false;
+  bool map_counts = false;
   double enough_entropy = -10;
   double least_probability = 0.8;
   double least_gain = 0.05;
@@ -46,6 +47,7 @@ struct PamsConfig {
     config.faces.hidden_m = 0.06;
     config.enough_entropy = -11;
     config.common_counts = true;
+    config.map_counts = true;
     config.price_per_s = 0.3;
     config.at_once = 4;
     config.replan = true;
@@ -76,6 +78,9 @@ struct PamsConfig {
     v.field(
         "common_counts", common_counts, "",
         "whether the error that all views share is part of the entropy: it cannot be flown off");
+    v.field("map_counts", map_counts, "",
+            "whether a target is known no better than the map has it: where one view contradicts "
+            "others, it is looked at further");
     v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
             "½ ln det of the covariance in m² at which a target is known well enough");
     v.field("least_probability", least_probability, {0, 1}, "",

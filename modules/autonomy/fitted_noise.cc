@@ -1,5 +1,6 @@
 #include "autonomy/fitted_noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -45,18 +46,27 @@ Eigen::Matrix3d sight_frame(const Eigen::Vector3d& place) {
   return frame;
 }
 
+/// Of [x, y, length, width]: what a window that states its length badly is worth beside most.
+Eigen::Vector4d by_stated(double length_sd, const slam::MeasurementNoiseConfig& noise) {
+  const double along =
+      std::pow(std::max(1.0, length_sd / noise.fitted_length_sd_m), noise.fitted_length_power);
+  return {along, 1, along, 1};
+}
+
 void correct(Measurement& m, objects::Cuboid cuboid, const uncertainty::Prediction& fitted,
-             const Eigen::Matrix3d&) {
+             const Eigen::Matrix3d&, const slam::MeasurementNoiseConfig& noise) {
   const Eigen::VectorXd& bias = fitted.bias;
   m.length_sd = objects::length_sd(m);
   cuboid.pose.translation() -= cuboid.pose.linear() * Eigen::Vector3d(bias[0], bias[1], 0);
   cuboid.size.head<2>() -= bias.tail<2>();
-  m.covariance = with_planar(m.covariance, objects::planar_rows(m.model), fitted.covariance);
+  const Eigen::Vector4d scale = by_stated(m.length_sd, noise);
+  m.covariance = with_planar(m.covariance, objects::planar_rows(m.model),
+                             scale.asDiagonal() * fitted.covariance * scale.asDiagonal());
   m.model = cuboid;
 }
 
 void correct(Measurement& m, objects::Cylinder cylinder, const uncertainty::Prediction& fitted,
-             const Eigen::Matrix3d& R_odom_lidar) {
+             const Eigen::Matrix3d& R_odom_lidar, const slam::MeasurementNoiseConfig&) {
   const Eigen::Matrix3d B = R_odom_lidar.transpose() * sight_frame(R_odom_lidar * cylinder.root);
   cylinder.root -= B * Eigen::Vector3d(fitted.bias[0], fitted.bias[1], 0);
   Matrix6d J = Matrix6d::Identity();  // from the sight frame to the lidar's
@@ -75,7 +85,8 @@ bool fits(const uncertainty::Prediction& fitted, const Measurement& m, double wh
          (cuboid->size.head<2>() - fitted.bias.tail<2>()).minCoeff() > 0;
 }
 
-void apply(const uncertainty::Model& model, const Eigen::Matrix3d& R_odom_lidar, Measurement& m) {
+void apply(const uncertainty::Model& model, const slam::MeasurementNoiseConfig& noise,
+           const Eigen::Matrix3d& R_odom_lidar, Measurement& m) {
   if (!model.knows(m.class_id)) return;
   Measurement named = m;
   name_by_front(named);
@@ -91,7 +102,7 @@ void apply(const uncertainty::Model& model, const Eigen::Matrix3d& R_odom_lidar,
     m.view_cell = objects::uncorrected_cell(fitted.cell);
     return;
   }
-  std::visit([&](const auto& shape) { correct(named, shape, fitted, R_odom_lidar); },
+  std::visit([&](const auto& shape) { correct(named, shape, fitted, R_odom_lidar, noise); },
              objects::Model(named.model));
   named.view_cell = objects::corrected_cell(fitted.cell);
   m = std::move(named);
@@ -107,7 +118,7 @@ std::shared_ptr<const uncertainty::Model> load_uncertainty(const UncertaintyConf
 
 FittedNoise::FittedNoise(const slam::SlamConfig& config,
                          std::shared_ptr<const uncertainty::Model> model)
-    : fixed_(config.noise) {
+    : noise_(config.noise) {
   if (config.measurement_noise == slam::NoiseSource::fixed) return;
   if (model == nullptr) throw Error("slam.measurement_noise: fitted, expected a fitted model");
   model_ = std::move(model);
@@ -116,12 +127,12 @@ FittedNoise::FittedNoise(const slam::SlamConfig& config,
 objects::Detections FittedNoise::applied(objects::Detections detections,
                                          const Eigen::Matrix3d& R_odom_lidar) const {
   if (model_ == nullptr) return detections;
-  for (Measurement& m : detections.measurements) apply(*model_, R_odom_lidar, m);
+  for (Measurement& m : detections.measurements) apply(*model_, noise_, R_odom_lidar, m);
   return detections;
 }
 
 Eigen::MatrixXd FittedNoise::common_of(const objects::MapObject& object) const {
-  Eigen::MatrixXd common = slam::common_variances(object.model, fixed_).asDiagonal();
+  Eigen::MatrixXd common = slam::common_variances(object.model, noise_).asDiagonal();
   const bool is_fitted = model_ != nullptr && model_->knows(object.class_id);
   if (!is_fitted || !slam::is_cuboid(object.model)) return common;
   const std::vector<int> rows = objects::planar_rows(object.model);

@@ -19,6 +19,8 @@ struct MeasurementNoiseConfig {
   double shared_length = 3;
   double shared_width = 1;
   double shared_cells = 1.5;
+  double fitted_length_sd_m = 0.17;
+  double fitted_length_power = 1.7;
   double shared_root = 4;
   double shared_radius = 80;
   double shared_radius_cells = 10;
@@ -57,6 +59,12 @@ struct MeasurementNoiseConfig {
         "view cells that say as much of a vehicle's size as the graph believes of one, with fitted "
         "noise: among neighbours errors are larger than on spirals; by the NEES of "
         "eighteen missions");
+    v.field("fitted_length_sd_m", fitted_length_sd_m, {0.01, 10}, "m",
+            "standard deviation that most windows of the fit stated of a vehicle's length: those "
+            "that state more weigh less than the fitted covariance has it");
+    v.field("fitted_length_power", fitted_length_power, {0, 4}, "",
+            "of what they state over that, by which its standard deviations grow along the "
+            "vehicle: their errors grew from 0.04 m at 0.13 m stated to 0.19 m at 0.27 m");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "slam/landmark_estimate.h"
+
 namespace saker::slam {
 namespace {
 

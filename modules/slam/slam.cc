@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slam/landmark_estimate.h"
+
 namespace saker::slam {
 namespace {
 
@@ -44,17 +46,23 @@ MeasurementNoiseConfig shared_noise(const SlamConfig& config) {
   return noise;
 }
 
-Eigen::MatrixXd given_poses(const Landmark& landmark, Chains chains, const SlamConfig& config) {
-  return named_covariance(landmark, covariance_given_poses(landmark, chains, config.graph));
+/// By its name, as far as its cells agree, and as wide as what windows share asks for; empty where
+/// nothing was measured.
+Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
+                        const SlamConfig& config) {
+  if (given.covariance.size() == 0) return {};
+  const Eigen::MatrixXd scattered =
+      given.scatter.asDiagonal() * given.covariance * given.scatter.asDiagonal();
+  return widened(landmark.model, named_covariance(landmark, scattered), shared_noise(config));
 }
 
 }  // namespace
 
 void widen(Eigen::MatrixXd& covariance, const Landmark& landmark, Chains chains,
            const SlamConfig& config) {
-  const Eigen::MatrixXd given = given_poses(landmark, chains, config);
-  if (given.rows() != covariance.rows()) return;  // nothing was measured
-  covariance += widened(landmark.model, given, shared_noise(config)) - given;
+  const GivenPoses given = given_poses(landmark, chains, config.graph);
+  if (given.covariance.rows() != covariance.rows()) return;  // nothing was measured
+  covariance += widened(landmark, given, config) - named_covariance(landmark, given.covariance);
 }
 
 Slam::Slam(const SlamConfig& config, const objects::ClassTable& table)
@@ -226,8 +234,7 @@ objects::ObjectMap Slam::map_given_poses() const {
   std::vector<Keyframe> poses = trajectory_.keyframes();
   const Chain own{&poses};
   return map_with([&](const Landmark& landmark) {
-    const Eigen::MatrixXd given = given_poses(landmark, {&own, 1}, config_);
-    return given.size() == 0 ? given : widened(landmark.model, given, shared_noise(config_));
+    return widened(landmark, given_poses(landmark, {&own, 1}, config_.graph), config_);
   });
 }
 

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <set>
 
-#include "core/error.h"
 #include "core/rng.h"
 #include "made_flight.h"
 #include "made_model.h"
@@ -118,6 +117,21 @@ TEST_P(BothPolicies, DoNotEndItThereWhileItsClassIsUnsure) {
   flight.input.map = std::make_shared<const objects::ObjectMap>(unsure);
   flight.fly(600);
   EXPECT_EQ(flight.target(0).reason.find("well enough"), std::string::npos);
+}
+
+TEST(Saker, DoesNotEndATargetThereWhileItsViewsDisagree) {
+  const auto reason = [](const PamsConfig& policy) {
+    PamsConfig config = policy;
+    config.enough_entropy = -6;
+    PamsFlight flight(config, {car(20, 5)});
+    objects::ObjectMap unsure = map_of({car(20, 5)});
+    unsure.objects[0].covariance = 0.25 * Matrix9d::Identity();
+    flight.input.map = std::make_shared<const objects::ObjectMap>(unsure);
+    flight.fly(600);
+    return flight.target(0).reason;
+  };
+  EXPECT_EQ(reason(PamsConfig::saker()).find("well enough"), std::string::npos);
+  EXPECT_NE(reason(PamsConfig::paper()).find("well enough"), std::string::npos);
 }
 
 TEST_P(BothPolicies, EndWhenNothingReachableTellsMore) {
@@ -376,22 +390,6 @@ TEST(Saker, FliesLessWhenASecondCostsMore) {
 TEST(Saker, NeedsNoMoreTimeThanThePaper) {
   PamsFlight paper(PamsConfig::paper(), kStreet), saker(PamsConfig::saker(), kStreet);
   EXPECT_LE(saker.fly(1000), paper.fly(1000));
-}
-
-TEST(Policy, ByInformationGainIsRefusedWithoutAModelOrWithOneThatLacksATargetClass) {
-  ActiveConfig config;
-  for (const PolicyName policy : {PolicyName::paper, PolicyName::saker}) {
-    config.policy = policy;
-    EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere), Error);
-    const auto ignorant = std::make_shared<const uncertainty::Model>();
-    EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere, ignorant), Error);
-  }
-}
-
-TEST(Policy, ThatWouldNeverLookIsRefused) {
-  ActiveConfig config;
-  config.paper.enough_entropy = 0;
-  EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere), Error);
 }
 
 }  // namespace

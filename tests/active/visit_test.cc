@@ -5,7 +5,6 @@
 #include <numbers>
 #include <set>
 
-#include "core/error.h"
 #include "core/rng.h"
 #include "made_flight.h"
 
@@ -331,21 +330,6 @@ TEST(Visit, SaysWhyEachCandidateIsRefused) {
   EXPECT_TRUE(reasons.contains(Refusal::none));
   EXPECT_TRUE(reasons.contains(Refusal::outside_geofence));
   EXPECT_TRUE(reasons.contains(Refusal::occupied));
-}
-
-TEST(Policy, ConfigurationThatCannotBeIsRefused) {
-  ActiveConfig crowded;
-  crowded.visit_policy.sides = 3;  // and 120° apart: the third may find no room
-  EXPECT_THROW((void)make_policy(crowded, kTable, {}, everywhere), Error);
-  ActiveConfig hasty;
-  hasty.goals.standing_s = hasty.visit_policy.dwell_s;
-  EXPECT_THROW((void)make_policy(hasty, kTable, {}, everywhere), Error);
-  ActiveConfig blind;
-  blind.view.nearest_m = blind.view.farthest_m;
-  EXPECT_THROW((void)make_policy(blind, kTable, {}, everywhere), Error);
-  ActiveConfig out_of_bounds;
-  out_of_bounds.viewpoints.bearings = 0;
-  EXPECT_THROW((void)make_policy(out_of_bounds, kTable, {}, everywhere), Error);
 }
 
 }  // namespace

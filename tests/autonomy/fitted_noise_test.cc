@@ -43,6 +43,7 @@ Measurement car(double range, double yaw) {
   m.covariance = Vector9d::LinSpaced(0.01, 0.09).asDiagonal();
   m.covariance(5, 8) = m.covariance(8, 5) = 0.02;
   m.covariance(3, 6) = m.covariance(6, 3) = 0.01;
+  m.length_sd = 0.15;  // as most windows state it
   m.front_log_odds = 2;
   return m;
 }
@@ -111,8 +112,24 @@ TEST(FittedNoise, ReplacesTheCovarianceOfPlaceAndSizeAndLeavesTheRest) {
   EXPECT_EQ(Eigen::MatrixXd(P(rest, rest)), Eigen::MatrixXd(m.covariance(rest, rest)));
   EXPECT_EQ(P(plan, rest).norm(), 0);
   EXPECT_EQ(applied(m).view_cell, objects::corrected_cell(fit.cell));
-  EXPECT_NEAR(applied(m).length_sd, std::sqrt(m.covariance(6, 6)), 1e-12);
+  EXPECT_EQ(applied(m).length_sd, 0.15);
   EXPECT_GE(fit.cell, 0);
+}
+
+TEST(FittedNoise, ALengthThatIsStatedWorseThanMostIsAsMuchWorseAndSoIsThePlaceAlongIt) {
+  slam::SlamConfig config = source(slam::NoiseSource::fitted);
+  config.noise.fitted_length_sd_m = 0.16;
+  config.noise.fitted_length_power = 2;
+  Measurement m = car(8, 0.3);
+  m.length_sd = NAN;
+  m.covariance(6, 6) = 0.24 * 0.24;
+  const Measurement after = applied(m, Eigen::Matrix3d::Identity(), FittedNoise(config, model()));
+  const auto fit = expected(kVehicle, 8, std::numbers::pi - 0.3);
+  const Eigen::Vector4d scale(2.25, 1, 2.25, 1);
+  const std::vector<int> plan = objects::planar_rows(m.model);
+  const Eigen::Matrix4d wanted = scale.asDiagonal() * fit.covariance * scale.asDiagonal();
+  EXPECT_TRUE(Eigen::Matrix4d(after.covariance(plan, plan)).isApprox(wanted, 1e-9));
+  EXPECT_NEAR(after.length_sd, 0.24, 1e-12);
 }
 
 TEST(FittedNoise, AVehicleMeasuredBackToFrontIsTheSame) {
@@ -153,7 +170,7 @@ TEST(FittedNoise, LeavesWhatWasNotFlownAsItIsButCountsItsCellOnce) {
 
 TEST(FittedNoise, LeavesAVehicleWithAHiddenEndAsItIsBesideTheWholeOnesOfItsCell) {
   Measurement m = car(8, 0.3);
-  m.covariance(6, 6) = 0.5;
+  m.length_sd = 0.7;
   expect_untouched(m, fitted(), applied(car(8, 0.3)).view_cell + 1);
 }
 

@@ -96,9 +96,9 @@ class Round {
     m.class_id = kVehicle;
     m.class_probability = {0.02, 0.92, 0.02, 0.02, 0.02};
     m.model = objects::transformed(T_world_lidar.inverse(), objects::Model(cuboid));
-    m.covariance = (Vector9d() << 1e-4, 1e-4, 1e-3, 0.04, 0.04, 1e-3, 0.04, 0.04, 1e-3)
+    m.covariance = (Vector9d() << 1e-4, 1e-4, 1e-3, 0.04, 0.04, 1e-3, 0.02, 0.04, 1e-3)
                        .finished()
-                       .asDiagonal();
+                       .asDiagonal();  // the length stated as well as in the fit
     m.front_log_odds = 2;
     m.points = 200;
     return m;

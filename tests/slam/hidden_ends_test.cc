@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "made_world.h"
+#include "slam/landmark_estimate.h"
 
 namespace saker::slam {
 namespace {

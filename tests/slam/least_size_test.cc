@@ -2,6 +2,7 @@
 
 #include "made_world.h"
 #include "slam/graph.h"
+#include "slam/landmark_estimate.h"
 
 /// Few poor views may agree best on an object of negative size: no map can say that.
 namespace saker::slam {

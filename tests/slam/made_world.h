@@ -58,6 +58,7 @@ struct Noise {
   double rotation = 0.002, translation = 0.02;  ///< odometry, a step
   double object_rotation = 0.03, object_translation = 0.1, object_size = 0.15;
   double cylinder_root = 0.05, cylinder_axis = 0.02, cylinder_radius = 0.02;
+  double drawn = 1;  ///< of what is stated; 0: measurements agree
 };
 
 class Robot {
@@ -136,7 +137,7 @@ class Robot {
 
   Eigen::VectorXd sample(const Eigen::VectorXd& sd) {
     Eigen::VectorXd values(sd.size());
-    for (Eigen::Index i = 0; i < sd.size(); ++i) values[i] = rng_.normal(0, sd[i]);
+    for (Eigen::Index i = 0; i < sd.size(); ++i) values[i] = rng_.normal(0, noise_.drawn * sd[i]);
     return values;
   }
 

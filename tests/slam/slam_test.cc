@@ -116,7 +116,7 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
   for (const NoiseSource source : {NoiseSource::fixed, NoiseSource::fitted}) {
     SlamConfig config = honest_config();
     config.measurement_noise = source;
-    Drive drive(config, Robot(ring_of_objects(12, 5), {}, 1));
+    Drive drive(config, Robot(ring_of_objects(12, 5), {.drawn = 0}, 1));
     drive.along(loop(12, 1, 1));
     const objects::ObjectMap own = drive.slam.map_with_covariance().map;
     const objects::ObjectMap reported = drive.slam.reported_map();

@@ -4,6 +4,7 @@
 
 #include "made_world.h"
 #include "slam/graph.h"
+#include "slam/landmark_estimate.h"
 
 /// Windows of one object from one view cell share their error: together they weigh as one.
 namespace saker::slam {
@@ -98,6 +99,30 @@ TEST(ViewCell, WithoutACellEveryWindowCounts) {
   const Eigen::MatrixXd P = refine(landmark, {&chain, 1}, quadratic());
   EXPECT_NEAR(length(landmark), 27.0 / 6, 1e-6);
   EXPECT_NEAR(P(6, 6), kVariance / 6, 1e-6);
+}
+
+/// By how much the cells disagree, of [rotation, translation, size].
+Eigen::VectorXd scatter(const std::vector<Window>& windows) {
+  Landmark landmark = measured(windows);
+  std::vector<Keyframe> poses = standing(3);
+  const Chain chain{&poses};
+  (void)refine(landmark, {&chain, 1}, quadratic());
+  return given_poses(landmark, {&chain, 1}, quadratic()).scatter;
+}
+
+TEST(ViewCell, WhereOneContradictsTheOthersTheyScatterByTheirOwnSpread) {
+  // Lengths 4.4, 4.4, 5.6 m, each to 0.2 m: their mean is good to sd/√3 = 0.4 m, not to 0.115 m.
+  const Eigen::VectorXd of_three = scatter({{0, 2, 4.4}, {1, 7, 4.4}, {2, 9, 5.6}});
+  EXPECT_NEAR(of_three[6], 0.4 / std::sqrt(kVariance / 3), 1e-3);
+  EXPECT_NEAR(of_three[7], 1, 1e-6) << "the widths agree";
+}
+
+TEST(ViewCell, ThoseThatAgreeScatterNoLessThanTheyState) {
+  EXPECT_NEAR((scatter({{0, 2, 4.4}, {1, 7, 4.4}}) - Eigen::VectorXd::Ones(9)).norm(), 0, 1e-6);
+}
+
+TEST(ViewCell, OneAloneHasNothingToDisagreeWith) {
+  EXPECT_EQ(scatter({{0, 2, 4.0}, {1, 2, 5.0}}), Eigen::VectorXd::Ones(9));
 }
 
 /// From behind, 1.9 m of its length stand for its width.

@@ -1,0 +1,220 @@
+#include "slam/landmark_estimate.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "objects/view_cell.h"
+#include "slam/manifolds.h"
+
+namespace saker::slam {
+namespace {
+
+constexpr HiddenEndConfig kNothingHidden{.sds = 1e9};
+
+/// The landmark's normal equations with the poses held, in the landmark's tangent.
+struct NormalEquations {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+
+/// A measurement in the world frame, and what it weighs.
+struct Weighted {
+  Gaussian measured;
+  double weight = 1;
+  HiddenEndConfig hidden_ends = kNothingHidden;
+  int cell = -1;
+};
+
+/// The error of an estimate as its factor weighs it, by the estimate's tangent: whitened², slope.
+struct Residual {
+  Eigen::VectorXd error;
+  Eigen::MatrixXd slope, information;
+
+  [[nodiscard]] double squared() const { return error.dot(information * error); }
+};
+
+Residual residual_of(const Model& model, const Weighted& observation) {
+  const Gaussian& measured = observation.measured;
+  Residual residual;
+  residual.error = -difference(measured.model, model);
+  const Eigen::Index size = residual.error.size();
+  residual.slope = Eigen::MatrixXd::Identity(size, size);
+  residual.information = measured.covariance.llt().solve(residual.slope);
+  if (!is_cuboid(model)) return residual;
+  const HiddenEnds hidden_ends(std::get<objects::Cuboid>(measured.model), measured.covariance,
+                               observation.hidden_ends);
+  const HiddenEnds::Softened softened = hidden_ends(residual.error);
+  residual.error = softened.error;
+  residual.slope = softened.slope;
+  return residual;
+}
+
+/// What Cauchy's kernel leaves of a squared error's weight.
+double robust_weight(double squared, const GraphConfig& config) {
+  return 1 / (1 + squared / (config.robust_scale * config.robust_scale));
+}
+
+void add_observation(const Model& model, const Weighted& observation, const GraphConfig& config,
+                     NormalEquations& sum) {
+  const Residual residual = residual_of(model, observation);
+  const double weight = observation.weight * robust_weight(residual.squared(), config);
+  const Eigen::MatrixXd weighted = weight * residual.slope.transpose() * residual.information;
+  sum.information += weighted * residual.slope;
+  sum.gradient -= weighted * residual.error;
+}
+
+NormalEquations normal_equations(const Model& model, std::span<const Weighted> all,
+                                 const GraphConfig& config) {
+  const Eigen::Index size = is_cuboid(model) ? kCuboidTangent : kCylinderTangent;
+  NormalEquations sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  for (const Weighted& observation : all) add_observation(model, observation, config, sum);
+  return sum;
+}
+
+/// Empty where there is none.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
+  const auto solver = information.llt();
+  if (solver.info() != Eigen::Success) return {};
+  return solver.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+}
+
+double robust_cost(const Model& model, std::span<const Weighted> all, const GraphConfig& config) {
+  double cost = 0;
+  for (const Weighted& observation : all) {
+    const double squared = residual_of(model, observation).squared();
+    cost -= observation.weight * std::log(robust_weight(squared, config));
+  }
+  return cost;
+}
+
+/// All that was measured of a landmark, in the world frame by the estimated poses.
+std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains,
+                                   const GraphConfig& config) {
+  const std::vector<double> weights = observation_weights(landmark, config.length_axis);
+  std::vector<Weighted> all;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const Observation& observation = landmark.observations[i];
+    const Chain& chain = chains[static_cast<std::size_t>(observation.chain)];
+    const Keyframe* keyframe = find(*chain.keyframes, observation.keyframe);
+    if (keyframe == nullptr) continue;
+    all.push_back({transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured),
+                   weights[i], hidden_ends_of(observation, config), observation.cell});
+  }
+  return all;
+}
+
+/// The measurement with the covariance that its factor and its loss make of it at the estimate.
+Gaussian as_weighed(const Weighted& observation, const Model& estimate, const GraphConfig& config) {
+  Gaussian measured = observation.measured;
+  if (is_cuboid(estimate)) {
+    const Vector9d error = -difference(measured.model, estimate);
+    const HiddenEnds hidden_ends(std::get<objects::Cuboid>(measured.model), measured.covariance,
+                                 observation.hidden_ends);
+    const Matrix9d widened = hidden_ends(error).secant.inverse();
+    measured.covariance = widened * measured.covariance * widened.transpose();
+  }
+  measured.covariance /= robust_weight(residual_of(estimate, observation).squared(), config);
+  return measured;
+}
+
+/// How each cell pulls at the estimate: at its best they balance. Windows without one pull alone.
+std::vector<Eigen::VectorXd> pulls(const Model& model, std::span<const Weighted> all,
+                                   const GraphConfig& config) {
+  std::map<int, std::vector<Weighted>> cells;
+  int alone = -1;
+  for (const Weighted& observation : all) {
+    cells[observation.cell < 0 ? alone-- : observation.cell].push_back(observation);
+  }
+  std::vector<Eigen::VectorXd> result;
+  for (const auto& [cell, observations] : cells) {
+    result.push_back(normal_equations(model, observations, config).gradient);
+  }
+  return result;
+}
+
+/// The diagonal of the sandwich C B C over that of C, B = n/(n − 1) Σ g gᵀ of n cells' pulls g;
+/// their roots, at least 1.
+Eigen::VectorXd scatter(const Model& model, std::span<const Weighted> all, const Eigen::MatrixXd& C,
+                        const GraphConfig& config) {
+  const std::vector<Eigen::VectorXd> of_cells = pulls(model, all, config);
+  const auto n = static_cast<double>(of_cells.size());
+  if (n < 2) return Eigen::VectorXd::Ones(C.rows());
+  Eigen::ArrayXd variance = Eigen::ArrayXd::Zero(C.rows());
+  for (const Eigen::VectorXd& pull : of_cells)
+    variance += n / (n - 1) * (C * pull).array().square();
+  return (variance / C.diagonal().array()).max(1).sqrt();
+}
+
+constexpr int kRefineSteps = 5;
+
+}  // namespace
+
+const HiddenEndConfig& hidden_ends_of(const Observation& observation, const GraphConfig& config) {
+  return objects::is_corrected(observation.cell) ? kNothingHidden : config.hidden_ends;
+}
+
+void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
+               const GraphConfig& config) {
+  const auto of_from = [&](const Observation& o) { return o.keyframe == from.serial; };
+  std::vector<Observation> handed;
+  std::ranges::copy_if(landmark.observations, std::back_inserter(handed), of_from);
+  std::erase_if(landmark.observations, of_from);
+  for (Observation& observation : handed) {
+    const Gaussian in_world =
+        transformed(from.T_world_lidar, Matrix6d::Zero(), observation.measured);
+    observation.measured = transformed(
+        to.T_world_lidar.inverse(), Matrix6d::Zero(),
+        as_weighed({in_world, 1, hidden_ends_of(observation, config)}, landmark.model, config));
+    observation.keyframe = to.serial;
+    remember(landmark, observation);
+  }
+  // What was flown past is a few observations from then on; hundreds were made room for.
+  if (landmark.observations.capacity() > 4 * landmark.observations.size()) {
+    landmark.observations.shrink_to_fit();
+  }
+}
+
+void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config) {
+  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
+  if (all.size() < 2) return;
+  Model newest = all.back().measured.model;
+  if (auto* cylinder = std::get_if<objects::Cylinder>(&newest)) {
+    cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
+  }
+  const double now = robust_cost(landmark.model, all, config);
+  if (robust_cost(newest, all, config) < now) landmark.model = newest;
+}
+
+Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config) {
+  restart_if_better(landmark, chains, config);
+  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
+  NormalEquations sum;
+  for (int step = 0; step < kRefineSteps; ++step) {
+    sum = normal_equations(landmark.model, all, config);
+    const auto solver = sum.information.llt();
+    if (solver.info() != Eigen::Success) return {};
+    landmark.model = moved(landmark.model, solver.solve(sum.gradient));
+  }
+  return inverse_of(sum.information);
+}
+
+GivenPoses given_poses(const Landmark& landmark, Chains chains, const GraphConfig& config) {
+  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
+  GivenPoses given{inverse_of(normal_equations(landmark.model, all, config).information), {}};
+  if (given.covariance.size() > 0)
+    given.scatter = scatter(landmark.model, all, given.covariance, config);
+  return given;
+}
+
+std::vector<double> robust_weights(const Landmark& landmark, Chains chains,
+                                   const GraphConfig& config) {
+  std::vector<double> weights;
+  for (const Weighted& observation : all_in_world(landmark, chains, config)) {
+    weights.push_back(robust_weight(residual_of(landmark.model, observation).squared(), config));
+  }
+  return weights;
+}
+
+}  // namespace saker::slam
