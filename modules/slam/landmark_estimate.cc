@@ -119,31 +119,13 @@ Gaussian as_weighed(const Weighted& observation, const Model& estimate, const Gr
   return measured;
 }
 
-/// How each cell pulls at the estimate: at its best they balance. Windows without one pull alone.
-std::vector<Eigen::VectorXd> pulls(const Model& model, std::span<const Weighted> all,
-                                   const GraphConfig& config) {
-  std::map<int, std::vector<Weighted>> cells;
-  int alone = -1;
-  for (const Weighted& observation : all) {
-    cells[observation.cell < 0 ? alone-- : observation.cell].push_back(observation);
-  }
-  std::vector<Eigen::VectorXd> result;
-  for (const auto& [cell, observations] : cells) {
-    result.push_back(normal_equations(model, observations, config).gradient);
-  }
-  return result;
-}
-
-/// The diagonal of the sandwich C B C over that of C, B = n/(n − 1) Σ g gᵀ of n cells' pulls g;
-/// their roots, at least 1.
-Eigen::VectorXd scatter(const Model& model, std::span<const Weighted> all, const Eigen::MatrixXd& C,
-                        const GraphConfig& config) {
-  const std::vector<Eigen::VectorXd> of_cells = pulls(model, all, config);
-  const auto n = static_cast<double>(of_cells.size());
+/// The roots, at least 1, of the diagonal of the sandwich C B C over that of C, B = n/(n − 1) Σ g
+/// gᵀ of the pulls g of n cells.
+Eigen::VectorXd scatter(const std::map<int, Eigen::VectorXd>& pulls, const Eigen::MatrixXd& C) {
+  const auto n = static_cast<double>(pulls.size());
   if (n < 2) return Eigen::VectorXd::Ones(C.rows());
   Eigen::ArrayXd variance = Eigen::ArrayXd::Zero(C.rows());
-  for (const Eigen::VectorXd& pull : of_cells)
-    variance += n / (n - 1) * (C * pull).array().square();
+  for (const auto& [cell, pull] : pulls) variance += n / (n - 1) * (C * pull).array().square();
   return (variance / C.diagonal().array()).max(1).sqrt();
 }
 
@@ -201,10 +183,18 @@ Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& con
 }
 
 GivenPoses given_poses(const Landmark& landmark, Chains chains, const GraphConfig& config) {
-  const std::vector<Weighted> all = all_in_world(landmark, chains, config);
-  GivenPoses given{inverse_of(normal_equations(landmark.model, all, config).information), {}};
-  if (given.covariance.size() > 0)
-    given.scatter = scatter(landmark.model, all, given.covariance, config);
+  NormalEquations sum = normal_equations(landmark.model, {}, config);
+  std::map<int, Eigen::VectorXd> pulls;  // at the estimate, of each cell: at its best they balance
+  int alone = -1;                        // windows without a cell
+  for (const Weighted& observation : all_in_world(landmark, chains, config)) {
+    const NormalEquations one = normal_equations(landmark.model, {&observation, 1}, config);
+    sum.information += one.information;
+    const int cell = observation.cell < 0 ? alone-- : observation.cell;
+    const auto [pull, first] = pulls.try_emplace(cell, one.gradient);
+    if (!first) pull->second += one.gradient;
+  }
+  GivenPoses given{inverse_of(sum.information), {}};
+  if (given.covariance.size() > 0) given.scatter = scatter(pulls, given.covariance);
   return given;
 }
 
