@@ -1,5 +1,8 @@
 #include "active/knowledge.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace saker::active {
 namespace {
 
@@ -79,10 +82,19 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
 
 Belief Knowledge::expected(const Covariance& covariance, const Knowledge& then) const {
   Belief belief = of_map(covariance);
+  const double scatter = scatter_of(belief);
   for (const auto& [id, information] : then.cells_) {
-    if (!counted(id)) belief.add(information);
+    if (!counted(id)) belief.add(information / scatter);
   }
   return belief;
+}
+
+/// By which the variances of the map exceed those of the looks; 1 below two views, which cannot
+/// contradict each other.
+double Knowledge::scatter_of(const Belief& map) const {
+  if (cells_.size() < 2) return 1;
+  const double excess = map.entropy() - belief_.entropy();
+  return std::max(1.0, std::exp(2 * excess / static_cast<double>(common_.rows())));
 }
 
 }  // namespace saker::active

@@ -35,11 +35,14 @@ class Knowledge {
   [[nodiscard]] Belief of_map(const Covariance& covariance) const { return {covariance, common_}; }
 
   /// What a map that knows the object to `covariance` (given the poses) by now will know after more
-  /// looks.
+  /// looks. Where it knows less than these looks should have told, its views contradict each other,
+  /// and further ones will: they tell so much less, too.
   /// \param then  of the same target after them
   [[nodiscard]] Belief expected(const Covariance& covariance, const Knowledge& then) const;
 
  private:
+  [[nodiscard]] double scatter_of(const Belief& map) const;
+
   Covariance common_;  ///< as far as it counts
   Belief belief_;
   std::map<int, Eigen::Matrix4d> cells_;  ///< that count, and their information

@@ -62,10 +62,13 @@ struct Rectangle {
 };
 
 /// What is shorter than nearly all of its class was cut, by something in front or by a gap in the
-/// labels: either end may be farther out by as much.
-double shortfall(double size, const SizePrior& prior) {
-  constexpr double kNearlyAll = 2;  // standard deviations
-  return std::max(0.0, prior.mean - kNearlyAll * prior.sd - size);
+/// labels: either end may be farther out by as much. What is longer than any holds something that
+/// stands at one of its ends, which may be farther in by as much.
+double unlikely_by(double size, const SizePrior& prior) {
+  constexpr double kNearlyAll = 2, kAny = 3;  // standard deviations
+  const double shortest = prior.mean - kNearlyAll * prior.sd;
+  const double longest = prior.mean + kAny * prior.sd;
+  return std::max({0.0, shortest - size, size - longest});
 }
 
 /// What is hidden makes nothing longer than its class, and no short thing unlikely.
@@ -84,9 +87,9 @@ Rectangle rectangle(const Footprint& footprint, const Sight& sight, const Vehicl
     const double variance = std::pow(prior.sd, 2) + std::pow(low.sd, 2) + std::pow(high.sd, 2);
     result.cost += std::pow(unlike(size, low.hidden_m + high.hidden_m, prior), 2) / variance +
                    std::log(variance);
-    const double missing = shortfall(size, prior);
-    low.sd += missing;
-    high.sd += missing;
+    const double doubt = unlikely_by(size, prior);
+    low.sd += doubt;
+    high.sd += doubt;
     result.axis[k] = fuse_edges(low, high, prior, seen_sd);
     const SizePrior shared = {prior.mean, prior.sd * std::sqrt(config.prior_windows)};
     result.axis[k].covariance = fuse_edges(low, high, shared, seen_sd).covariance;

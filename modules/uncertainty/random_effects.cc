@@ -89,9 +89,28 @@ class Estimation {
       const Vector rest = draw.error - mean;
       covariance += share * rest * rest.transpose();
     }
+    class_bias_ = mean;
+    location_.assign(intervals, mean);
     bias_.assign(intervals, mean);
     covariance_.assign(intervals, 0.5 * covariance);
     common_ = 0.25 * (covariance + mirrored(covariance));
+  }
+
+  /// One step of Huber's M-estimator of location (Annals of Mathematical Statistics 35, 1964),
+  /// entry by entry, in units of the median deviation.
+  [[nodiscard]] Vector located(const std::vector<Vector>& values, const Vector& location) const {
+    Vector moved = location;
+    std::vector<double> deviations(values.size());
+    for (Eigen::Index k = 0; k < location.size(); ++k) {
+      std::ranges::transform(values, deviations.begin(),
+                             [&](const Vector& v) { return std::abs(v[k] - location[k]); });
+      std::ranges::nth_element(deviations, deviations.begin() + deviations.size() / 2);
+      const double most = config_.bias_most_deviations * deviations[deviations.size() / 2];
+      double sum = 0;
+      for (const Vector& v : values) sum += std::clamp(v[k] - location[k], -most, most);
+      moved[k] += sum / static_cast<double>(values.size());
+    }
+    return moved;
   }
 
   /// Bounds what an outlier moves.
@@ -128,23 +147,21 @@ class Estimation {
   }
 
   void estimate_biases() {
-    std::vector<Vector> sums(bias_.size(), zero_vector());
-    std::vector<double> counts(bias_.size(), 0);
-    Vector total = zero_vector();
-    double count = 0;
-    for (std::size_t i = 0; i < draws_.size(); ++i) {
-      const Draw& draw = draws_[i];
-      const Vector addition = folded(draw, additions_[at(draw.object)].mean);
-      const Vector weighted = weights_[i] * (Vector(draw.error) - addition);
-      sums[at(draw.interval)] += weighted;
-      counts[at(draw.interval)] += weights_[i];
-      total += weighted;
-      count += weights_[i];
+    std::vector<std::vector<Vector>> errors(bias_.size());
+    std::vector<Vector> all;
+    for (const Draw& draw : draws_) {
+      all.emplace_back(draw.error - folded(draw, additions_[at(draw.object)].mean));
+      errors[at(draw.interval)].push_back(all.back());
     }
-    const Vector mean = total / count;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const double known = counts[i] + config_.bias_prior_draws;
-      if (known > 0) bias_[i] = (sums[i] + config_.bias_prior_draws * mean) / known;
+    class_bias_ = located(all, class_bias_);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (errors[i].empty()) {
+        location_[i] = bias_[i] = class_bias_;
+        continue;
+      }
+      location_[i] = located(errors[i], location_[i]);
+      const double known = counts_[i] + config_.bias_prior_draws;
+      bias_[i] = (counts_[i] * location_[i] + config_.bias_prior_draws * class_bias_) / known;
     }
   }
 
@@ -185,6 +202,8 @@ class Estimation {
   std::vector<double> weights_;  // one a draw
   std::vector<Addition> additions_;
   std::vector<int> counts_;  // draws, one an interval
+  Vector class_bias_;
+  std::vector<Vector> location_;  // of an interval's errors alone
   std::vector<Vector> bias_;
   std::vector<Matrix> covariance_;
   Matrix common_;

@@ -11,6 +11,7 @@ namespace saker::uncertainty {
 struct RandomEffectsConfig {
   double prior_draws = 10;
   double bias_prior_draws = 1;
+  double bias_most_deviations = 2;
   double most_sd = 5;
   double least_sd_m = 0.005;
   int iterations = 1000;
@@ -22,6 +23,9 @@ struct RandomEffectsConfig {
             "for which the class's mean covariance counts in that of an interval");
     v.field("bias_prior_draws", bias_prior_draws, {0, 1000}, "",
             "for which the class's mean bias counts in that of an interval");
+    v.field("bias_most_deviations", bias_most_deviations, {0.01, 100}, "",
+            "median deviations beyond which an error moves a bias as if it lay there: 1.3 standard "
+            "deviations of a Gaussian; ends that were not seen make errors lean inward");
     v.field("most_sd", most_sd, {2, 100}, "",
             "standard deviations (Mahalanobis) beyond which an error counts as if it lay there");
     v.field("least_sd_m", least_sd_m, {1e-6, 1}, "m",

@@ -140,6 +140,17 @@ TEST(Knowledge, WhatIsExpectedIsTheMapsAndTheCellsThatAreNew) {
   EXPECT_NEAR(now.expected(map, known(looks)).covariance()(2, 2), length, 1e-9);
 }
 
+TEST(Knowledge, WhereViewsContradictEachOtherTheNextIsExpectedToTellLess) {
+  Looks looks = no_looks();
+  looks.add(eye_at(0.3), {0, 0, 0}, 3, 0);
+  looks.add(eye_at(1.3), {0, 0, 0}, 3, 0);
+  const Knowledge now = known(looks);
+  const Covariance map(9 * now.belief().covariance());
+  looks.add(eye_at(-2.0), {0, 0, 0}, 3, 0);
+  const Eigen::Matrix4d then = known(looks).belief().covariance();
+  EXPECT_TRUE(now.expected(map, known(looks)).covariance().isApprox(9 * then, 1e-6));
+}
+
 TEST(Knowledge, HoldsWhatIsCommonWhereItCounts) {
   PamsConfig config = config_with();
   config.common_counts = true;

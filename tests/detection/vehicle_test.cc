@@ -114,6 +114,16 @@ TEST(Vehicle, EndThatIsHiddenIsNotKnown) {
   EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * length_sd(fit));
 }
 
+TEST(Vehicle, LongerThanAnyOfItsClassMayEndFartherIn) {
+  const auto seen = [](double length) {
+    return Scene{{0, 0, 2}, {.x = 12, .y = 0, .yaw = M_PI / 2, .length = length}}.fit();
+  };
+  EXPECT_LT(length_sd(seen(5.4)), 0.2);
+  const VehicleFit fit = seen(7.2);
+  ASSERT_EQ(fit.status, VehicleStatus::fitted);
+  EXPECT_GT(length_sd(fit), 1);
+}
+
 TEST(Vehicle, ClassWidthOfAHiddenSideIsStatedAsWhatOneOfManyWindowsKnows) {
   Scene scene{{0, -8, 1.2}, {.x = 0, .y = 0, .yaw = 0}};
   scene.others = {{.x = 0, .y = 2.1, .yaw = 0, .length = 8, .height = 3}};

@@ -64,6 +64,15 @@ TEST(RandomEffectsTest, AnOutlierMovesABiasByABoundedAmount) {
   EXPECT_LT(after.covariance[0](0, 0), 2 * before.covariance[0](0, 0));
 }
 
+TEST(RandomEffectsTest, ATailOfOneInTwentyMovesABiasLittle) {
+  std::vector<Draw> draws = made(1000, 4);
+  const RandomEffects before = random_effects(draws, 2, kParity, {});
+  for (std::size_t i = 0; i < draws.size(); i += 40) draws[i].error[0] -= 2;  // of interval 0
+  const RandomEffects after = random_effects(draws, 2, kParity, {});
+  EXPECT_NEAR(after.bias[0][0], before.bias[0][0], 0.03);
+  EXPECT_GT(after.covariance[0](0, 0), 2 * before.covariance[0](0, 0));
+}
+
 TEST(RandomEffectsTest, AnIntervalWithFewDrawsIsDrawnTowardsTheClass) {
   std::vector<Draw> draws = made(500, 5);
   draws.push_back({0, 2, false, Eigen::Vector2d(0.3, 0.1)});
