@@ -9,6 +9,8 @@
 namespace saker::active {
 namespace {
 
+constexpr double kReopened = 1.3;  // of the greatest sd of a size: estimates tremble
+
 ActiveConfig searching(ActiveConfig config, const PamsConfig& pams) {
   config.visit_policy.sides = pams.search_sides;
   config.visit_policy.between = pams.search_between;
@@ -30,6 +32,7 @@ void PamsPolicy::make_room(std::size_t targets) {
   looks_.resize(targets, Looks(viewpoints.bearings, viewpoints.ring_step_m));
   cells_.resize(targets, 0);
   views_.resize(targets, 0);
+  sure_.resize(targets, false);
 }
 
 ActivePlan PamsPolicy::plan(const ActiveInput& input, const core::Budget& budget) {
@@ -53,7 +56,22 @@ void PamsPolicy::look(int index) {
     flown_.push_back(*expected_);
     expected_.reset();
   }
-  if (enough(index, known)) close(index, seen_status(index), why_none(index));
+  if (!enough(index, known)) return;
+  sure_[index] = true;
+  close(index, seen_status(index), why_none(index));
+}
+
+/// What was known well enough is looked at further where later windows contradict the earlier ones.
+void PamsPolicy::reconsider() {
+  for (int index = 0; index < targets_.size(); ++index) {
+    if (!sure_[index] || targets_[index].status != TargetStatus::done) continue;
+    if (sees(body_, yaw_, targets_[index], 0)) {
+      looks_[index].add(body_, targets_[index].place(), elapsed_s_, flown_m_);
+    }
+    if (size_is_known(index, known_of(index), kReopened)) continue;
+    sure_[index] = false;
+    reopen(index);
+  }
 }
 
 bool PamsPolicy::choose(int index) {
@@ -115,8 +133,12 @@ bool PamsPolicy::choose_among(int index, const std::vector<bool>& region) {
       refusal = sampled[i] ? Refusal::none : Refusal::region;
     }
   }
-  const Choice choice = choice_among(index, samples);
-  const std::optional<Path> path = best_path(choice);
+  Choice choice = choice_among(index, samples);
+  std::optional<Path> path = best_path(choice);
+  if (!path && !size_is_known(index, known_of(index), 1)) {
+    choice.problem.price_per_s = pams_.least_price_per_s;
+    path = best_path(choice);
+  }
   if (!path) return false;
   const Viewpoint& next = choice.samples[path->stops.front()].viewpoint;
   if (flies_to(index) && next.id == goal_->viewpoint.id) return true;
@@ -297,7 +319,16 @@ Knowledge PamsPolicy::known_of(int index) const {
 
 bool PamsPolicy::enough(int index, const Knowledge& known) const {
   return belief_of(index, known).entropy() <= pams_.enough_entropy &&
+         size_is_known(index, known, 1) &&
          class_probability(targets_[index]) >= pams_.least_probability;
+}
+
+/// In the map, to a share of the greatest sd; a cylinder's place says all.
+bool PamsPolicy::size_is_known(int index, const Knowledge& known, double share) const {
+  const Covariance& in_map = targets_[index].covariance;
+  if (in_map.rows() < 4) return true;
+  const Eigen::Vector2d variances = known.of_map(in_map).covariance().diagonal().tail<2>();
+  return std::sqrt(variances.maxCoeff()) <= share * pams_.most_size_sd_m;
 }
 
 /// Of the mapped object's class; 1 where the map does not say.

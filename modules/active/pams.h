@@ -40,6 +40,7 @@ class PamsPolicy : public VisitPolicy {
  protected:
   void make_room(std::size_t targets) override;
   void look(int index) override;
+  void reconsider() override;
   [[nodiscard]] bool choose(int index) override;
   [[nodiscard]] std::string why_none(int index) const override;
   [[nodiscard]] std::string seen_from(int index) const override;
@@ -68,6 +69,7 @@ class PamsPolicy : public VisitPolicy {
   [[nodiscard]] Knowledge known_of(int index) const;
   [[nodiscard]] Belief belief_of(int index, const Knowledge& known) const;
   [[nodiscard]] bool enough(int index, const Knowledge& known) const;
+  [[nodiscard]] bool size_is_known(int index, const Knowledge& known, double share) const;
   [[nodiscard]] double class_probability(const Target& target) const;
 
   PamsConfig pams_;
@@ -76,6 +78,7 @@ class PamsPolicy : public VisitPolicy {
   std::vector<Looks> looks_;                  ///< one a target, as the next two
   std::vector<int> cells_;                    ///< the most that ever counted
   std::vector<int> views_;                    ///< viewpoints flown
+  std::vector<bool> sure_;                    ///< closed as known well enough
   std::optional<Reachability> reachability_;  ///< of this decision
   std::optional<Expectation> expected_;       ///< of the goal
   std::vector<Expectation> flown_;            ///< in this decision

@@ -21,9 +21,11 @@ struct PamsConfig {
   bool common_counts = false;
   bool map_counts = false;
   double enough_entropy = -10;
+  double most_size_sd_m = 10;
   double least_probability = 0.8;
   double least_gain = 0.05;
   double price_per_s = 0;
+  double least_price_per_s = 0;
   int at_once = 1;
   bool replan = false;
   double switch_gain = 0.3;
@@ -40,15 +42,17 @@ struct PamsConfig {
 
   [[nodiscard]] static PamsConfig saker() {
     PamsConfig config;
-    config.sampling = Sampling::uniform;
     config.beyond_region = true;
+    config.dwell_s = 0.9;
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
     config.faces.hidden_m = 0.06;
     config.enough_entropy = -11;
+    config.most_size_sd_m = 0.1;
     config.common_counts = true;
     config.map_counts = true;
     config.price_per_s = 0.3;
+    config.least_price_per_s = 0.1;
     config.at_once = 4;
     config.replan = true;
     config.drift_counts = true;
@@ -67,7 +71,8 @@ struct PamsConfig {
             "ordered paths up to which all are weighed: 30 samples, 3 at a time; then a beam");
     v.field("beam", beam, {1, 1000}, "", "partial paths that the beam search keeps");
     v.field("dwell_s", dwell_s, {0, 60}, "s",
-            "in view from a cell of the model until it counts: its window has all points of it");
+            "in view from a cell of the model until it counts: its window has all points of it; "
+            "less than a second: one decision, two windows");
     v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
             "sd of x and y before the first view: half a car's width");
     v.field("prior_length_m", prior_length_m, {0.01, 10}, "m",
@@ -83,11 +88,16 @@ struct PamsConfig {
             "others, it is looked at further");
     v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
             "½ ln det of the covariance in m² at which a target is known well enough");
+    v.field("most_size_sd_m", most_size_sd_m, {0.01, 10}, "m",
+            "sd of length and of width in the map, above which it is not, either: an end that "
+            "nobody saw hides in a determinant. As targets.known_sd_m");
     v.field("least_probability", least_probability, {0, 1}, "",
             "of the class of the mapped object until then");
     v.field("least_gain", least_gain, {0, 10}, "nat", "that a path must bring to be flown");
     v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
             "what a second of flight must bring beside it: the more, the shorter the mission");
+    v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
+            "the same where nothing brings that much and the size is not known to most_size_sd_m");
     v.field("at_once", at_once, {1, 8}, "",
             "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
     v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");

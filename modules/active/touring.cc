@@ -22,6 +22,7 @@ ActivePlan TouringPolicy::plan(const ActiveInput& input, const core::Budget& bud
   follow_list();
   if (map_) targets_.associate(*map_);
   observe();
+  reconsider();
   watch_progress();
   if (reorder_) order_tour(budget);
   while (!tour_.empty() && !choose(tour_.front())) {
@@ -210,6 +211,12 @@ void TouringPolicy::close(int index, TargetStatus status, const std::string& rea
   targets_.close(index, status, reason);
   std::erase(tour_, index);
   if (goal_ && goal_->target == index) goal_.reset();
+  reorder_ = true;
+}
+
+void TouringPolicy::reopen(int index) {
+  targets_.close(index, TargetStatus::pending, "");
+  records_[index] = {};
   reorder_ = true;
 }
 

@@ -43,6 +43,8 @@ class TouringPolicy : public TargetPolicy {
   virtual void make_room(std::size_t targets) { records_.resize(targets); }
   /// The target was in view since the last decision.
   virtual void look(int index) = 0;
+  /// Closed targets that are to be looked at further are opened again here.
+  virtual void reconsider() {}
   /// Whether there is a viewpoint of this target to fly to; it is the goal then.
   [[nodiscard]] virtual bool choose(int index) = 0;
   /// Why `choose` found none.
@@ -58,6 +60,7 @@ class TouringPolicy : public TargetPolicy {
   [[nodiscard]] Candidate goal_as_candidate() const;
   [[nodiscard]] bool was_given_up(int index, const Viewpoint& viewpoint) const;
   void close(int index, TargetStatus status, const std::string& reason);
+  void reopen(int index);
   [[nodiscard]] TargetStatus seen_status(int index) const;
   [[nodiscard]] std::optional<Eigen::Vector3d> next_place() const;
 

@@ -78,10 +78,11 @@ objects::Measurement read_measurement(const Json& row, const objects::ClassTable
   m.stamp = from_seconds(number(row.at("time"), -1e10, 1e10));
   m.class_id = table.find(row.at("class").get<std::string>());
   m.class_probability = read_probability(row.at("class_probability"), table);
-  if (table[m.class_id].shape == objects::Shape::cuboid) {
-    m.model = read_cuboid(row.at("model"));
+  const Json& model = row.at("model");  // what was fitted may look more like something else
+  if (model.contains("size")) {
+    m.model = read_cuboid(model);
   } else {
-    m.model = read_cylinder(row.at("model"));
+    m.model = read_cylinder(model);
   }
   m.points = row.at("points").get<int>();
   m.moving = row.at("moving").get<bool>();

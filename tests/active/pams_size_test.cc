@@ -1,0 +1,88 @@
+/// Policy `saker` and the size that the map states: an end that nobody saw keeps a target open.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "active/pams.h"
+#include "made_flight.h"
+#include "made_model.h"
+
+namespace saker::active {
+namespace {
+
+using namespace made;
+
+/// A vehicle whose place and width the map knows well, and its length to `length_sd`.
+struct KnownButForItsLength : Flight {
+  explicit KnownButForItsLength(const PamsConfig& pams) : Flight(policy_for(pams)) {}
+
+  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams) {
+    const ActiveConfig config;
+    const objects::ClassTable table;
+    return std::make_unique<PamsPolicy>(
+        config, pams, TargetList(config.targets, table, map_of({car(20, 5)})), everywhere,
+        oblique_model(0), motion::LimitsConfig{});
+  }
+
+  void know_length_to(double length_sd) {
+    objects::ObjectMap map = map_of({car(20, 5)});
+    Eigen::MatrixXd covariance = 1e-4 * Matrix9d::Identity();
+    covariance(6, 6) = length_sd * length_sd;
+    map.objects[0].covariance = covariance;
+    input.map = std::make_shared<const objects::ObjectMap>(map);
+  }
+};
+
+PamsConfig easily_enough() {
+  PamsConfig config = PamsConfig::saker();
+  config.enough_entropy = -8;  // a length of 0.5 m with the others at 0.01 m
+  return config;
+}
+
+TEST(PamsSize, ALengthThatIsNotKnownHidesInNoDeterminant) {
+  const auto goals = [](double length_sd, double most_size_sd_m) {
+    PamsConfig config = easily_enough();
+    config.most_size_sd_m = most_size_sd_m;
+    KnownButForItsLength flight(config);
+    flight.know_length_to(length_sd);
+    flight.fly(600);
+    EXPECT_EQ(flight.target(0).status, TargetStatus::done);
+    return flight.goals.size();
+  };
+  EXPECT_GT(goals(0.3, 0.1), goals(0.3, 10));
+  EXPECT_EQ(goals(0.05, 0.1), goals(0.05, 10));
+}
+
+TEST(PamsSize, AClosedTargetWhoseViewsContradictEachOtherLaterIsLookedAtFurther) {
+  KnownButForItsLength flight(easily_enough());
+  flight.know_length_to(0.05);
+  flight.fly(600);
+  ASSERT_EQ(flight.target(0).status, TargetStatus::done);
+  ASSERT_EQ(flight.target(0).reason.find("known well enough"), 0U) << flight.target(0).reason;
+  flight.know_length_to(0.5);
+  EXPECT_EQ(flight.decide().status, ActiveStatus::flying);
+  EXPECT_EQ(flight.target(0).status, TargetStatus::pending);
+  flight.know_length_to(0.05);
+  EXPECT_LT(flight.fly(600), 600);
+  EXPECT_EQ(flight.target(0).status, TargetStatus::done);
+}
+
+TEST(PamsSize, AMapThatNeverKnowsEndsTheFlightAllTheSame) {
+  KnownButForItsLength flight(easily_enough());
+  flight.know_length_to(2);
+  EXPECT_LT(flight.fly(600), 600);
+  EXPECT_EQ(flight.target(0).status, TargetStatus::done);
+  EXPECT_NE(flight.target(0).reason.find("seen from"), std::string::npos);
+}
+
+TEST(PamsSize, PolicyPaperAsksForTheDeterminantAlone) {
+  PamsConfig config = PamsConfig::paper();
+  config.enough_entropy = 10;
+  KnownButForItsLength flight(config);
+  flight.know_length_to(2);
+  flight.fly(600);
+  EXPECT_EQ(flight.target(0).reason.find("known well enough"), 0U) << flight.target(0).reason;
+}
+
+}  // namespace
+}  // namespace saker::active
