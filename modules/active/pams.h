@@ -29,7 +29,8 @@ namespace saker::active {
 /// viewpoint is weighed for the neighbours that it sees, too; the drift of the pose lessens what
 /// later views are worth; what all views have in common sets an end to what is worth flying; a
 /// better viewpoint replaces the one that is flown to; where the map knows less of a target than
-/// its views should have told, for they disagree, the map is believed. Cost: some 20 ms a decision.
+/// its views should have told, for they disagree, the map is believed; a length or width that it
+/// does not know keeps a target open, or opens it again. Cost: some 20 ms a decision.
 class PamsPolicy : public VisitPolicy {
  public:
   PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,

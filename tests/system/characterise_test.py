@@ -79,6 +79,11 @@ class Collect(ProgramTest):
         self.assert_numbers(behind, range=12, time_s=0.5, error_x=0.3, error_y=0, error_length=0)
         self.assertAlmostEqual(abs(float(behind["angle"])), math.pi, places=5)
 
+    def test_a_box_that_looks_more_like_something_else_is_read_as_a_box(self):
+        doubtful = {**DETECTIONS[0], "class": "other", "class_probability": [0.5, 0.4, 0, 0, 0.1]}
+        run = self.made_run([json.dumps(line) for line in [doubtful, *DETECTIONS[1:]]])
+        self.assertEqual([s["class"] for s in self.collected(run)][-2:], ["pole", "vehicle"])
+
     def test_sizes_by_hand_stand_beside_places_from_the_map(self):
         run = self.made_run()
         table = self.folder / "dimensions.yaml"

@@ -79,10 +79,10 @@ objects::Measurement read_measurement(const Json& row, const objects::ClassTable
   m.class_id = table.find(row.at("class").get<std::string>());
   m.class_probability = read_probability(row.at("class_probability"), table);
   const Json& model = row.at("model");  // what was fitted may look more like something else
-  if (model.contains("size")) {
-    m.model = read_cuboid(model);
-  } else {
+  if (model.contains("root")) {
     m.model = read_cylinder(model);
+  } else {
+    m.model = read_cuboid(model);
   }
   m.points = row.at("points").get<int>();
   m.moving = row.at("moving").get<bool>();
