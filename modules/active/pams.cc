@@ -323,11 +323,14 @@ bool PamsPolicy::enough(int index, const Knowledge& known) const {
          class_probability(targets_[index]) >= pams_.least_probability;
 }
 
-/// In the map, to a share of the greatest sd; a cylinder's place says all.
+/// To a share of the greatest sd, by the map, or by its views where that says nothing; a cylinder's
+/// place says all.
 bool PamsPolicy::size_is_known(int index, const Knowledge& known, double share) const {
-  const Covariance& in_map = targets_[index].covariance;
-  if (in_map.rows() < 4) return true;
-  const Eigen::Vector2d variances = known.of_map(in_map).covariance().diagonal().tail<2>();
+  const Target& target = targets_[index];
+  if (model_.common(target.class_id).rows() < 4) return true;
+  const Covariance& in_map = target.covariance;
+  const Belief belief = in_map.size() == 0 ? known.belief() : known.of_map(in_map);
+  const Eigen::Vector2d variances = belief.covariance().diagonal().tail<2>();
   return std::sqrt(variances.maxCoeff()) <= share * pams_.most_size_sd_m;
 }
 

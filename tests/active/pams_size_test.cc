@@ -19,9 +19,9 @@ struct KnownButForItsLength : Flight {
   static std::unique_ptr<Policy> policy_for(const PamsConfig& pams) {
     const ActiveConfig config;
     const objects::ClassTable table;
-    return std::make_unique<PamsPolicy>(
-        config, pams, TargetList(config.targets, table, map_of({car(20, 5)})), everywhere,
-        oblique_model(0), motion::LimitsConfig{});
+    return std::make_unique<PamsPolicy>(config, pams,
+                                        TargetList(config.targets, table, map_of({car(20, 5)})),
+                                        everywhere, oblique_model(0), motion::LimitsConfig{});
   }
 
   void know_length_to(double length_sd) {
@@ -36,6 +36,7 @@ struct KnownButForItsLength : Flight {
 PamsConfig easily_enough() {
   PamsConfig config = PamsConfig::saker();
   config.enough_entropy = -8;  // a length of 0.5 m with the others at 0.01 m
+  config.least_price_per_s = 0.01;
   return config;
 }
 

@@ -312,7 +312,9 @@ TEST(Paper, FliesNowhereElseThanToTheRegion) {
 TEST(Saker, GoesBeyondTheRegionWhereNothingInItCanBeReached) {
   ViewModel nowhere = oblique_model();
   nowhere.in_region = [](objects::ClassId, const uncertainty::View&) { return false; };
-  PamsFlight flight(PamsConfig::saker(), {car(20, 5)}, everywhere, nowhere);
+  PamsConfig config = PamsConfig::saker();
+  config.sampling = Sampling::uniform;
+  PamsFlight flight(config, {car(20, 5)}, everywhere, nowhere);
   EXPECT_LT(flight.fly(600), 600);
   EXPECT_EQ(flight.plan.done, 1);
 }
@@ -340,9 +342,11 @@ TEST(Saker, TakesABetterViewpointWhenOneAppears) {
 
 TEST(Saker, WeighsTheNeighboursThatAViewpointSees) {
   const std::vector<Cuboid> pair = {car(20, 0, pi / 2), car(22.6, 0, pi / 2)};
-  PamsConfig alone = PamsConfig::saker();
+  PamsConfig both = PamsConfig::saker();
+  both.sampling = Sampling::uniform;
+  PamsConfig alone = both;
   alone.at_once = 1;
-  PamsFlight together(PamsConfig::saker(), pair), one(alone, pair);
+  PamsFlight together(both, pair), one(alone, pair);
   together.decide();
   one.decide();
   ASSERT_TRUE(together.plan.expected && one.plan.expected);
@@ -356,7 +360,7 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
   const TargetList targets(config.targets, kTable, map_of(cars));
   PamsConfig pams = never_enough(GetParam());
   pams.price_per_s = std::min(pams.price_per_s, 0.05);
-  pams.window_s = pams.dwell_s;
+  pams.dwell_s = pams.window_s = 1.5;  // more than a decision: one on the way counts for no cell
   PamsFlight flight(pams, cars);
   Looks looks(36, 0.5);
   Target target = targets[0];
@@ -371,7 +375,7 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
     }
   }
   ASSERT_FALSE(flight.flown.empty());
-  const Knowledge known(target, looks, model, GetParam());
+  const Knowledge known(target, looks, model, pams);
   Eigen::Matrix4d after = known.belief().covariance();
   if (!GetParam().common_counts) after += model.common(target.class_id);
   const Eigen::Matrix4d predicted = flight.flown.front().covariance;
