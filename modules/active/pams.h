@@ -76,7 +76,7 @@ class PamsPolicy : public VisitPolicy {
   PamsConfig pams_;
   ViewModel model_;
   motion::LimitsConfig limits_;
-  std::vector<Looks> looks_;                  ///< one a target, as the next two
+  std::vector<Looks> looks_;                  ///< one a target, as the next three
   std::vector<int> cells_;                    ///< the most that ever counted
   std::vector<int> views_;                    ///< viewpoints flown
   std::vector<bool> sure_;                    ///< closed as known well enough

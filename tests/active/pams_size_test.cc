@@ -1,8 +1,6 @@
 /// Policy `saker` and the size that the map states: an end that nobody saw keeps a target open.
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "active/pams.h"
 #include "made_flight.h"
 #include "made_model.h"
