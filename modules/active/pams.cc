@@ -86,8 +86,10 @@ bool PamsPolicy::choose(int index) {
   }
   candidates_ = viewpoints_of(index);
   for (Candidate& candidate : candidates_) judge(candidate, index);
-  if (choose_among(index, region_of(index))) return true;
-  return pams_.beyond_region && choose_among(index, std::vector<bool>(candidates_.size(), true));
+  if (choose_among(index, region_of(index), pams_.sampling)) return true;
+  if (!pams_.beyond_region || size_is_known(index, known_of(index), 1)) return false;
+  const std::vector<bool> everywhere(candidates_.size(), true);
+  return choose_among(index, everywhere, Sampling::uniform);
 }
 
 /// Whether each candidate lies in the region of good views, about the present estimate.
@@ -122,9 +124,9 @@ bool PamsPolicy::flies_to(int index) const {
          expected_->viewpoint_id == goal_->viewpoint.id;
 }
 
-bool PamsPolicy::choose_among(int index, const std::vector<bool>& region) {
+bool PamsPolicy::choose_among(int index, const std::vector<bool>& region, Sampling sampling) {
   const std::vector<int> samples =
-      region_samples(candidates_, region, pams_.sampling, config_.viewpoints.rings);
+      region_samples(candidates_, region, sampling, config_.viewpoints.rings);
   std::vector<bool> sampled(candidates_.size(), false);
   for (const int sample : samples) sampled[sample] = true;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {

@@ -30,7 +30,8 @@ namespace saker::active {
 /// later views are worth; what all views have in common sets an end to what is worth flying; a
 /// better viewpoint replaces the one that is flown to; where the map knows less of a target than
 /// its views should have told, for they disagree, the map is believed; a length or width that it
-/// does not know keeps a target open, or opens it again. Cost: some 20 ms a decision.
+/// does not know keeps a target open, or opens it again, and is worth all of the lattice where the
+/// region's samples are used up. Cost: some 20 ms a decision.
 class PamsPolicy : public VisitPolicy {
  public:
   PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,
@@ -55,7 +56,7 @@ class PamsPolicy : public VisitPolicy {
     PathProblem problem;
   };
 
-  [[nodiscard]] bool choose_among(int index, const std::vector<bool>& region);
+  [[nodiscard]] bool choose_among(int index, const std::vector<bool>& region, Sampling sampling);
   [[nodiscard]] std::vector<bool> region_of(int index) const;
   void judge(Candidate& candidate, int index) const;
   [[nodiscard]] bool flies_to(int index) const;

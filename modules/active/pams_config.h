@@ -65,7 +65,8 @@ struct PamsConfig {
     v.field("sampling", sampling, "",
             "of the region of good views: all of the lattice in it, or each part's centroid");
     v.field("beyond_region", beyond_region, "",
-            "whether other views are weighed when none in the region tells anything");
+            "whether all of the lattice is weighed where no sample of the region is worth flying "
+            "to and the size is not known to most_size_sd_m");
     v.field("horizon", horizon, {1, 5}, "", "viewpoints in a path, the paper's T");
     v.field("most_paths", most_paths, {1, 1e6}, "",
             "ordered paths up to which all are weighed: 30 samples, 3 at a time; then a beam");

@@ -112,14 +112,16 @@ struct Config {
   return lidar::mount_pose(config.mount).linear().row(2).transpose().cast<float>();
 }
 
-/// The fitted model, null where nothing in the configuration needs one. Throws Error on a file that
-/// is missing or not valid.
+/// The fitted model, null where nothing in the configuration needs one; about the truth where its
+/// biases are not taken off. Throws Error on a file that is missing or not valid.
 [[nodiscard]] inline std::shared_ptr<const uncertainty::Model> uncertainty_for(
     const Config& config) {
   const bool for_slam = config.slam.measurement_noise == slam::NoiseSource::fitted;
   const bool for_views = config.active.policy != active::PolicyName::visit;
   if (!for_slam && !for_views) return nullptr;
-  return load_uncertainty(config.uncertainty, config.objects);
+  auto model = load_uncertainty(config.uncertainty, config.objects);
+  if (for_slam) return model;
+  return std::make_shared<const uncertainty::Model>(model->about_truth());
 }
 
 }  // namespace saker::autonomy

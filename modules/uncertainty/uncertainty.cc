@@ -30,7 +30,17 @@ Prediction Model::predict(objects::ClassId id, const View& view) const {
   prediction.whole = expected.whole;
   prediction.extrapolated = expected.extrapolated;
   prediction.cell = model.geometric.parts().intervals.cell_of(view);
+  if (bias_stays_) {
+    prediction.covariance += prediction.bias * prediction.bias.transpose();
+    prediction.bias.setZero();
+  }
   return prediction;
+}
+
+Model Model::about_truth() const {
+  Model model = *this;
+  model.bias_stays_ = true;
+  return model;
 }
 
 const Eigen::MatrixXd& Model::common_covariance(objects::ClassId id) const {

@@ -58,6 +58,10 @@ class Model {
   /// averaged over.
   [[nodiscard]] Prediction predict(objects::ClassId id, const View& view) const;
 
+  /// The same model where nobody takes the bias off a measurement: errors are about the truth, not
+  /// about the bias, which is part of the covariance.
+  [[nodiscard]] Model about_truth() const;
+
   /// What all views of one object have in common (its shape is no box), in the order of
   /// Prediction::covariance: no number of cells takes it away. After views from cells C the error's
   /// covariance is (Σ_C covariance⁻¹)⁻¹ + common.
@@ -71,6 +75,7 @@ class Model {
  private:
   std::map<objects::ClassId, ClassModel> classes_;
   Provenance provenance_;
+  bool bias_stays_ = false;
 };
 
 }  // namespace saker::uncertainty

@@ -1,6 +1,8 @@
 /// Policy `saker` and the size that the map states: an end that nobody saw keeps a target open.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "active/pams.h"
 #include "made_flight.h"
 #include "made_model.h"
@@ -12,14 +14,15 @@ using namespace made;
 
 /// A vehicle whose place and width the map knows well, and its length to `length_sd`.
 struct KnownButForItsLength : Flight {
-  explicit KnownButForItsLength(const PamsConfig& pams) : Flight(policy_for(pams)) {}
+  explicit KnownButForItsLength(const PamsConfig& pams, const InGeofence& fence = everywhere)
+      : Flight(policy_for(pams, fence)) {}
 
-  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams) {
+  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams, const InGeofence& fence) {
     const ActiveConfig config;
     const objects::ClassTable table;
     return std::make_unique<PamsPolicy>(config, pams,
                                         TargetList(config.targets, table, map_of({car(20, 5)})),
-                                        everywhere, oblique_model(0), motion::LimitsConfig{});
+                                        fence, oblique_model(0), motion::LimitsConfig{});
   }
 
   void know_length_to(double length_sd) {
@@ -72,6 +75,25 @@ TEST(PamsSize, AMapThatNeverKnowsEndsTheFlightAllTheSame) {
   EXPECT_LT(flight.fly(600), 600);
   EXPECT_EQ(flight.target(0).status, TargetStatus::done);
   EXPECT_NE(flight.target(0).reason.find("seen from"), std::string::npos);
+}
+
+TEST(PamsSize, WhereTheRegionsCentroidsCannotBeReachedTheLatticeShowsTheLength) {
+  const auto goals = [](bool beyond_region, const InGeofence& fence) {
+    PamsConfig config = easily_enough();
+    config.beyond_region = beyond_region;
+    KnownButForItsLength flight(config, fence);
+    flight.know_length_to(0.5);
+    flight.fly(600);
+    return flight.goals;
+  };
+  const std::vector<Viewpoint> centroids = goals(false, everywhere);
+  ASSERT_FALSE(centroids.empty());
+  const auto elsewhere = [&](const Eigen::Vector3d& place) {
+    return std::ranges::none_of(
+        centroids, [&](const Viewpoint& at) { return (at.position - place).norm() < 0.1; });
+  };
+  EXPECT_TRUE(goals(false, elsewhere).empty());
+  EXPECT_FALSE(goals(true, elsewhere).empty());
 }
 
 TEST(PamsSize, PolicyPaperAsksForTheDeterminantAlone) {

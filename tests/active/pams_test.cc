@@ -312,9 +312,7 @@ TEST(Paper, FliesNowhereElseThanToTheRegion) {
 TEST(Saker, GoesBeyondTheRegionWhereNothingInItCanBeReached) {
   ViewModel nowhere = oblique_model();
   nowhere.in_region = [](objects::ClassId, const uncertainty::View&) { return false; };
-  PamsConfig config = PamsConfig::saker();
-  config.sampling = Sampling::uniform;
-  PamsFlight flight(config, {car(20, 5)}, everywhere, nowhere);
+  PamsFlight flight(PamsConfig::saker(), {car(20, 5)}, everywhere, nowhere);
   EXPECT_LT(flight.fly(600), 600);
   EXPECT_EQ(flight.plan.done, 1);
 }

@@ -228,6 +228,20 @@ TEST(FittedNoise, ReportedCovarianceIsTheGraphsAndTheCommonPart) {
   EXPECT_EQ(map.objects[2].covariance.size(), 0);
 }
 
+TEST(UncertaintyFor, WithFixedNoiseViewsAreWorthWhatTheirBiasLeaves) {
+  Config config;
+  config.active.policy = active::PolicyName::paper;
+  const uncertainty::View behind{8, std::numbers::pi, NAN, NAN};
+  const auto predicted = [&](slam::NoiseSource noise) {
+    config.slam.measurement_noise = noise;
+    return uncertainty_for(config)->predict(kVehicle, behind);
+  };
+  const uncertainty::Prediction fitted = predicted(slam::NoiseSource::fitted);
+  const uncertainty::Prediction fixed = predicted(slam::NoiseSource::fixed);
+  ASSERT_LT(fitted.bias[2], -0.05) << "from behind lengths are too short";
+  EXPECT_NEAR(fixed.covariance(2, 2), fitted.covariance(2, 2) + std::pow(fitted.bias[2], 2), 1e-9);
+}
+
 TEST(FittedNoise, NeedsAModel) {
   EXPECT_THROW(FittedNoise(source(slam::NoiseSource::fitted), nullptr), Error);
   Config config;
