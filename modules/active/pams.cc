@@ -9,8 +9,6 @@
 namespace saker::active {
 namespace {
 
-constexpr double kReopened = 1.3;  // of the greatest sd of a size: estimates tremble
-
 ActiveConfig searching(ActiveConfig config, const PamsConfig& pams) {
   config.visit_policy.sides = pams.search_sides;
   config.visit_policy.between = pams.search_between;
@@ -68,7 +66,7 @@ void PamsPolicy::reconsider() {
     if (sees(body_, yaw_, targets_[index], 0)) {
       looks_[index].add(body_, targets_[index].place(), elapsed_s_, flown_m_);
     }
-    if (size_is_known(index, known_of(index), kReopened)) continue;
+    if (size_is_known(index, known_of(index), pams_.reopen_share)) continue;
     sure_[index] = false;
     reopen(index);
   }

@@ -22,6 +22,7 @@ struct PamsConfig {
   bool map_counts = false;
   double enough_entropy = -10;
   double most_size_sd_m = 10;
+  double reopen_share = 1.3;
   double least_probability = 0.8;
   double least_gain = 0.05;
   double price_per_s = 0;
@@ -92,6 +93,9 @@ struct PamsConfig {
     v.field("most_size_sd_m", most_size_sd_m, {0.01, 10}, "m",
             "sd of length and of width in the map, above which it is not, either: an end that "
             "nobody saw hides in a determinant. As targets.known_sd_m");
+    v.field("reopen_share", reopen_share, {1, 100}, "",
+            "of most_size_sd_m, above which a target that was known well enough is opened again: "
+            "estimates tremble");
     v.field("least_probability", least_probability, {0, 1}, "",
             "of the class of the mapped object until then");
     v.field("least_gain", least_gain, {0, 10}, "nat", "that a path must bring to be flown");
