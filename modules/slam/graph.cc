@@ -160,6 +160,7 @@ ceres::Solver::Options solver_options(const GraphConfig& config, const core::Bud
   options.max_num_iterations = std::min(config.iterations, budget.most_iterations());
   options.max_solver_time_in_seconds = std::min(budget.seconds_left(), 1e6);
   options.function_tolerance = config.function_tolerance;
+  options.initial_trust_region_radius = config.trust_radius;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   return options;

@@ -9,6 +9,7 @@ namespace saker::slam {
 struct GraphConfig {
   int iterations = 4;
   double function_tolerance = 1e-5;
+  double trust_radius = 1e4;
   double robust_scale = 3;
   HiddenEndConfig hidden_ends;
   LengthAxisConfig length_axis;
@@ -20,6 +21,10 @@ struct GraphConfig {
             "most Levenberg-Marquardt steps a cycle; the start is the last cycle's estimate");
     v.field("function_tolerance", function_tolerance, {0, 1}, "",
             "relative decrease of the cost at which a cycle ends");
+    v.field(
+        "trust_radius", trust_radius, {1, 1e12}, "",
+        "a parameter's own curvature over this damps a cycle's first step: what bends the whole "
+        "flight waits for the next cycles");
     v.field(
         "robust_scale", robust_scale, {0.1, 1000}, "",
         "Cauchy's scale on whitened errors of objects: half weight at 9, the mean of nine degrees "

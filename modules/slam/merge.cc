@@ -87,11 +87,11 @@ MergeReport MultiRobotSlam::add(const History& history,
     integrate(history.entries[k], static_cast<int>(chain), report);
     ++report.entries;
     if (report.entries % config_.merge.track_every == 0) track(chain);
-    if (report.entries % config_.merge.loop_every == 0 && close_loop(chain, report)) spread(chain);
+    if (report.entries % config_.merge.loop_every == 0) close_loop(chain, report);
     if (budget.seconds_left() < kToSettle * given_s) break;
   }
   track(chain);
-  (void)close_loop(chain, report);
+  close_loop(chain, report);
   settle(chain, budget, report);
   return report;
 }
@@ -201,11 +201,11 @@ void MultiRobotSlam::track(std::size_t chain) {
                     core::Budget::iterations(config_.merge.track_iterations));
 }
 
-/// True where one was closed: poses and objects lie about where they belong, to be solved.
-bool MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
+/// Where there is one, poses and objects are put about where they belong, and the rest follows.
+void MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
   std::vector<Keyframe>& keyframes = flights_[chain].keyframes;
   const int since = static_cast<int>(keyframes.size()) - config_.merge.loop_keyframes;
-  if (since <= 0) return false;
+  if (since <= 0) return;
   std::vector<const Landmark*> recent, older;
   for (const Landmark& landmark : landmarks_) {
     if (!seen_from(landmark, static_cast<int>(chain), since)) older.push_back(&landmark);
@@ -218,18 +218,19 @@ bool MultiRobotSlam::close_loop(std::size_t chain, MergeReport& report) {
   const Alignment loop =
       align(survey(older, [&](std::size_t c, const Keyframe& k) { return !is_recent(c, k); }),
             survey(recent, is_recent), config_.merge.constellation, bounds);
-  if (loop.status != AlignmentStatus::accepted) return false;
+  if (loop.status != AlignmentStatus::accepted) return;
   ++report.loops;
   for (std::size_t k = static_cast<std::size_t>(since); k < keyframes.size(); ++k)
     keyframes[k].T_world_lidar = loop.T_a_b.pose * keyframes[k].T_world_lidar;
   join(loop);
-  return true;
+  spread();
 }
 
-/// Over this flight, what closing a loop moved its end by; the others' wait for the final solve.
-void MultiRobotSlam::spread(std::size_t chain) {
-  (void)solve_flight(chain, config_.merge.first_scale,
-                     core::Budget::iterations(config_.merge.iterations));
+/// Over all flights, what closing a loop moved one's end by: any of them may have drifted, and one
+/// that was bent to fit the others' drift would have to be bent back.
+void MultiRobotSlam::spread() {
+  (void)solve_graph(chains(), pointers(landmarks_), whole_graph(config_.merge.first_scale),
+                    core::Budget::iterations(config_.merge.iterations));
 }
 
 /// One flight and what it saw, the other flights held.
@@ -258,6 +259,7 @@ void MultiRobotSlam::join(const Alignment& loop) {
 GraphConfig MultiRobotSlam::whole_graph(double scale) const {
   GraphConfig graph = config_.graph;
   graph.iterations = config_.merge.iterations;
+  graph.trust_radius = config_.merge.trust_radius;
   graph.robust_scale *= scale;
   return graph;
 }

@@ -54,7 +54,8 @@ struct MergedFlight {
 /// and loops of one flight that drift has opened beyond the association's gates, are found by
 /// constellations.
 ///
-/// Cost: a history costs what it would cost alone, and the final solves of the whole graph.
+/// Cost: a history costs what it would cost alone, and the solves of the whole graph: the final
+/// ones, and one for each loop.
 class MultiRobotSlam {
  public:
   /// Throws Error on an invalid value.
@@ -90,8 +91,8 @@ class MultiRobotSlam {
   void integrate(const HistoryEntry& entry, int chain, MergeReport& report);
   void take_back(const std::vector<Candidate>& moving, int chain);
   void track(std::size_t chain);
-  bool close_loop(std::size_t chain, MergeReport& report);
-  void spread(std::size_t chain);
+  void close_loop(std::size_t chain, MergeReport& report);
+  void spread();
   void join(const Alignment& loop);
   [[nodiscard]] GraphConfig whole_graph(double scale) const;  ///< of the robust kernel
   SolveReport solve_flight(std::size_t chain, double scale, const core::Budget& budget);

@@ -9,6 +9,7 @@ struct MergeConfig {
   int track_keyframes = 30;
   int track_iterations = 3;
   int iterations = 10;
+  double trust_radius = 1e8;
   double first_scale = 8;
   double disagreement = 0.15;
   int loop_every = 40;
@@ -26,7 +27,11 @@ struct MergeConfig {
             "newest keyframes that are fitted; older ones are held");
     v.field("track_iterations", track_iterations, {1, 100}, "", "most steps of such a fit");
     v.field("iterations", iterations, {1, 1000}, "",
-            "most steps of each solve of the whole graph once a history is in");
+            "most steps of each solve of the whole graph: once a history is in, and where it "
+            "closes a loop");
+    v.field("trust_radius", trust_radius, {1, 1e12}, "",
+            "in place of slam.graph.trust_radius in such solves: drift bends a flight as a whole, "
+            "which three steps undo, and ten do not where 10000 holds them back");
     v.field("first_scale", first_scale, {1, 1000}, "",
             "of the robust kernel, times slam.graph.robust_scale, at the first such solve; halved "
             "until it is 1");
