@@ -94,8 +94,7 @@ struct PamsConfig {
             "sd of length and of width in the map, above which it is not, either: an end that "
             "nobody saw hides in a determinant. As targets.known_sd_m");
     v.field("reopen_share", reopen_share, {1, 100}, "",
-            "of most_size_sd_m, above which a target that was known well enough is opened again: "
-            "estimates tremble");
+            "of most_size_sd_m, above which a closed target is opened again: estimates tremble");
     v.field("least_probability", least_probability, {0, 1}, "",
             "of the class of the mapped object until then");
     v.field("least_gain", least_gain, {0, 10}, "nat", "that a path must bring to be flown");
