@@ -242,6 +242,19 @@ TEST(UncertaintyFor, WithFixedNoiseViewsAreWorthWhatTheirBiasLeaves) {
   EXPECT_NEAR(fixed.covariance(2, 2), fitted.covariance(2, 2) + std::pow(fitted.bias[2], 2), 1e-9);
 }
 
+TEST(UncertaintyFor, ThePapersEstimatorSeesLengthsBestFromObliquelyInFrontWorstFromBehind) {
+  Config config;
+  config.active.policy = active::PolicyName::paper;
+  config.uncertainty.model = "models/uncertainty-replica.yaml";
+  const auto model = uncertainty_for(config);
+  const auto length_sd = [&](double angle_deg) {
+    const uncertainty::View view{13, angle_deg * std::numbers::pi / 180, NAN, NAN};
+    return std::sqrt(model->predict(kVehicle, view).covariance(2, 2));
+  };
+  EXPECT_LT(2 * length_sd(45), length_sd(165));
+  EXPECT_LT(length_sd(45), length_sd(15));
+}
+
 TEST(FittedNoise, NeedsAModel) {
   EXPECT_THROW(FittedNoise(source(slam::NoiseSource::fitted), nullptr), Error);
   Config config;

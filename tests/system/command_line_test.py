@@ -15,6 +15,11 @@ class CommandLine(ProgramTest):
         run = saker("config", "--config", ROOT / "configs/default.yaml")
         self.assertEqual(run.stdout, (ROOT / "configs/default.yaml").read_text(), run.stderr)
 
+    def test_the_configuration_of_the_papers_estimator_can_be_read(self):
+        run = saker("config", "--config", ROOT / "configs/replica.yaml")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("method: hull", run.stdout)
+
     def test_a_setting_shows_in_the_effective_configuration(self):
         default = saker("config").stdout
         changed = saker("config", "--set", "rates.slam_hz=1.25").stdout
