@@ -10,6 +10,8 @@ namespace {
 using Section =
     std::vector<Eigen::Vector3d>;  ///< half a cross-section, y ≥ 0, from the sill to the middle
 
+constexpr double kBedDepth = 0.49;  // m; of mid-size pickups 0.47 to 0.51
+
 /// Height of the body's upper edge at x, measured from the front end backwards.
 double deck_height(const VehicleShape& s, double back) {
   const auto mix = [](double a, double b, double t) {
@@ -52,7 +54,7 @@ Section body_section(const VehicleShape& s, double back) {
   const double sill = std::min(sill_height(s, back), top - 0.12);
   const bool bed = s.open_bed && back > s.rear_base && back < s.length - 0.06;
   const double inner = bed ? 0.93 * w - 0.07 : 0.6 * w;
-  const double floor = bed ? s.clearance + 0.4 : top + 0.02;
+  const double floor = bed ? s.tail - kBedDepth : top + 0.02;
   const double middle = std::clamp(0.55 * top, sill + 0.02, top - 0.08);
   return {{x, 0.8 * w, sill},         {x, 0.97 * w, sill}, {x, w, middle},
           {x, 0.985 * w, top - 0.07}, {x, 0.93 * w, top},  {x, inner, top + (bed ? 0 : 0.01)},

@@ -91,7 +91,7 @@ void pickup(VehicleShape& s, core::Rng& rng) {
   s.clearance += 0.08;
   s.bonnet = draw(rng, 1.0, 0.04);
   s.belt = draw(rng, 1.15, 0.03);
-  s.tail = draw(rng, 1.05, 0.04);
+  s.tail = draw(rng, 1.32, 0.03);  // the bed's floor 0.77 to 0.89 m above the ground
   s.screen_base = draw(rng, 0.25, 0.01) * s.length;
   s.roof_front = s.screen_base + draw(rng, 0.55, 0.05);
   s.rear_base = s.length - draw(rng, 1.55, 0.1);

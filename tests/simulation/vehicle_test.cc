@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/ray_caster.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -67,6 +69,24 @@ TEST(Vehicle, TheFrontIsLowerThanTheMiddle) {
       if (std::abs(p.x()) < 0.4F) middle = std::max(middle, p.z());
     }
     EXPECT_LT(front, middle - 0.3F) << name_of(kind);
+  }
+}
+
+/// As those of mid-size pickups: 0.78 to 0.86 m unladen.
+TEST(Vehicle, ALoadBedsFloorIsAsHighAsOnesThatAreSold) {
+  for (std::uint64_t seed = 1; seed < 50; ++seed) {
+    const Drawn d = draw(VehicleKind::pickup, seed);
+    const RayCaster caster(d.world);
+    const auto bed = static_cast<float>(-d.shape.length / 2 + 0.7);
+    std::vector<Shot> shots(1);
+    shots[0].origin = {bed, 0, 3};
+    shots[0].direction = -Eigen::Vector3f::UnitZ();
+    caster.cast(shots, 10);
+    ASSERT_TRUE(shots[0].hit);
+    const double floor = 3 - shots[0].distance;
+    EXPECT_GT(floor, 0.76);
+    EXPECT_LT(floor, 0.9);
+    EXPECT_LT(floor, d.shape.tail - 0.4) << "it has walls";
   }
 }
 
