@@ -25,7 +25,7 @@ struct BeyondConfig {
   double far_m = 1.5;
   double inset_m = 0.1;
   double lowest_m = 0.25;
-  double highest_m = 0.75;
+  double highest_m = 0.65;
   double least_way_m = 0.2;
   int beams = 3;
   double hidden_share = 0.5;
@@ -39,7 +39,7 @@ struct BeyondConfig {
             "from the sides: what passes along a side tells nothing of the end");
     v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: grass and kerbs");
     v.field("highest_m", highest_m, {0.1, 3}, "m",
-            "above the ground: lower than hoods, over which beams pass");
+            "above the ground: lower than hoods and load beds, over which beams pass");
     v.field("least_way_m", least_way_m, {0, 2}, "m",
             "of a beam within: deeper than what is met in a wheel arch");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
