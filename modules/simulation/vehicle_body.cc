@@ -10,7 +10,9 @@ namespace {
 using Section =
     std::vector<Eigen::Vector3d>;  ///< half a cross-section, y ≥ 0, from the sill to the middle
 
-constexpr double kBedDepth = 0.49;  // m; of mid-size pickups 0.47 to 0.51
+constexpr double kBedDepth = 0.49;         // m; of mid-size pickups 0.47 to 0.51
+constexpr double kArchGap = 0.07;          // m, around a wheel
+constexpr double kWheelhouseDepth = 0.32;  // m, from the side: a tyre and room to turn
 
 /// Height of the body's upper edge at x, measured from the front end backwards.
 double deck_height(const VehicleShape& s, double back) {
@@ -37,7 +39,7 @@ double half_width(const VehicleShape& s, double back) {
 
 /// Lower edge of the side: the sill, raised over the wheels.
 double sill_height(const VehicleShape& s, double back) {
-  const double arch = s.wheel_radius + 0.07;
+  const double arch = s.wheel_radius + kArchGap;
   double sill = s.clearance + 0.04;
   if (std::min(back, s.length - back) < 0.3) sill += 0.06;
   for (const double axle : {s.front_axle, s.length - s.rear_axle}) {
@@ -162,6 +164,28 @@ void draw_seats(const VehicleShape& s, const Palette& palette, const Pen& pen) {
   draw.box({rear + 0.1, -half, 0.4}, {rear + 0.3, half, top - 0.12}, palette.interior);
 }
 
+/// Liners that close a wheel's arch down to the sill: no beam gets into the body there.
+void draw_wheelhouse(const VehicleShape& s, const Palette& palette, double x, double side,
+                     const Pen& pen) {
+  constexpr int kSteps = 10;
+  Pen draw = pen;
+  const double arch = s.wheel_radius + kArchGap;
+  const double outer = side * (s.width / 2 - 0.06);
+  const double inner = side * (s.width / 2 - kWheelhouseDepth);
+  const double sill = s.clearance + 0.04;
+  std::vector<Eigen::Vector3d> back = {{x + arch, inner, sill}};
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = M_PI * i / kSteps;
+    back.emplace_back(x + arch * std::cos(angle), inner, s.wheel_radius + arch * std::sin(angle));
+  }
+  back.emplace_back(x - arch, inner, sill);
+  const auto out = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), outer, p.z()); };
+  for (std::size_t i = 0; i + 1 < back.size(); ++i) {
+    draw.quad(back[i], back[i + 1], out(back[i + 1]), out(back[i]), palette.dark);
+  }
+  draw.polygon(back, palette.dark);
+}
+
 void draw_wheels(const VehicleShape& s, const Palette& palette, const Pen& pen) {
   Pen draw = pen;
   const double r = s.wheel_radius;
@@ -171,6 +195,7 @@ void draw_wheels(const VehicleShape& s, const Palette& palette, const Pen& pen) 
       draw.tube({{x, side * (outer - 0.21), r}, {x, side * outer, r}}, {r, r}, 20, palette.rubber);
       const double y = side * (outer + 0.005);
       draw.tube({{x, y - 0.002, r}, {x, y + 0.002, r}}, {0.66 * r, 0.66 * r}, 14, palette.rim);
+      draw_wheelhouse(s, palette, x, side, pen);
     }
   }
 }

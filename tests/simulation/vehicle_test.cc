@@ -79,7 +79,7 @@ TEST(Vehicle, ALoadBedsFloorIsAsHighAsOnesThatAreSold) {
     const RayCaster caster(d.world);
     const auto bed = static_cast<float>(-d.shape.length / 2 + 0.7);
     std::vector<Shot> shots(1);
-    shots[0].origin = {bed, 0, 3};
+    shots[0].origin = {bed, 0.1F, 3};
     shots[0].direction = -Eigen::Vector3f::UnitZ();
     caster.cast(shots, 10);
     ASSERT_TRUE(shots[0].hit);
@@ -87,6 +87,31 @@ TEST(Vehicle, ALoadBedsFloorIsAsHighAsOnesThatAreSold) {
     EXPECT_GT(floor, 0.76);
     EXPECT_LT(floor, 0.9);
     EXPECT_LT(floor, d.shape.tail - 0.4) << "it has walls";
+  }
+}
+
+/// Wheels have liners around them: what looks into an arch does not look into the engine.
+TEST(Vehicle, NoBeamGetsThroughAWheelsArchIntoTheBody) {
+  for (const VehicleKind kind : kCars) {
+    const Drawn d = draw(kind, 7);
+    const RayCaster caster(d.world);
+    const double axle = d.shape.length / 2 - d.shape.front_axle, r = d.shape.wheel_radius;
+    std::vector<Shot> shots;
+    for (double x = -0.4; x <= 0.4; x += 0.02) {
+      for (double z = r; z <= 2 * r + 0.05; z += 0.01) {
+        const Eigen::Vector3d from(axle + x, 8, 2.5), to(axle + x, d.shape.width / 2, z);
+        Shot shot;
+        shot.origin = from.cast<float>();
+        shot.direction = (to - from).normalized().cast<float>();
+        shots.push_back(shot);
+      }
+    }
+    caster.cast(shots, 20);
+    for (const Shot& shot : shots) {
+      ASSERT_TRUE(shot.hit);
+      const Eigen::Vector3f met = shot.origin + shot.distance * shot.direction;
+      EXPECT_GT(met.y(), d.shape.width / 2 - 0.33) << name_of(kind) << " " << met.transpose();
+    }
   }
 }
 
