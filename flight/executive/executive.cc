@@ -203,7 +203,7 @@ double Executive::age_ms(Time stamp) const {
 
 void Executive::save(const std::filesystem::path& out) {
   const slam::Slam& slam = mapping_.slam();
-  const objects::ObjectMap map = mapping_.map_with_covariance();
+  const objects::ObjectMap map = mapping_.map_with_covariance(planning_.policy().targets());
   objects::write_map(out / "map.json", map, config_.autonomy.objects);
   objects::write_map(out / "map.smap", map, config_.autonomy.objects);
   std::string world, odom;

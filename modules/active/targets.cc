@@ -155,7 +155,7 @@ void TargetList::attach(int index, const MapObject* object, bool complete) {
   Target& target = targets_[index];
   const bool mapped = object && complete;
   target.object_id = mapped ? object->id : -1;
-  target.incomplete = object && !complete;
+  target.incomplete_id = object && !complete ? object->id : -1;
   target.covariance = mapped ? planar(*object) : Covariance();
   target.extent = object ? cuboid_of(object->model) : prior_extent_[index];
   if (target.status == TargetStatus::done || target.status == TargetStatus::visited) {

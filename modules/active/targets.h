@@ -57,14 +57,15 @@ struct Target {
   objects::Cuboid extent;  ///< world: its object's, or else the prior's with its margin
   Covariance covariance;   ///< of its mapped object, given the poses; empty without one
   Eigen::Vector3d prior_place = Eigen::Vector3d::Constant(NAN);  ///< world, m
-  int object_id = -1;       ///< the mapped object's; −1: none yet
-  bool incomplete = false;  ///< the map has an object there of which nobody saw how long it is
+  int object_id = -1;      ///< the mapped object's; −1: none yet
+  int incomplete_id = -1;  ///< of an object there of which nobody saw how long it is; −1: none
   TargetStatus status = TargetStatus::pending;
   std::string reason;       ///< why it is visited with fewer sides, or unreachable
   bool discovered = false;  ///< not in the prior map
   bool absent = false;      ///< dismissed: no object is its own any more
 
   [[nodiscard]] bool mapped() const { return object_id >= 0; }
+  [[nodiscard]] bool incomplete() const { return incomplete_id >= 0; }
   [[nodiscard]] Eigen::Vector3d place() const { return extent.pose.translation(); }
 };
 

@@ -39,7 +39,7 @@ bool VisitPolicy::choose(int index) {
 
 /// It is worth more sides than others.
 bool VisitPolicy::end_is_missing(int index) const {
-  return config_.visit_policy.between && targets_[index].incomplete;
+  return config_.visit_policy.between && targets_[index].incomplete();
 }
 
 bool VisitPolicy::choose_side(int index) {

@@ -245,7 +245,8 @@ void MissionLockstep::send_trajectory() {
 MissionResult MissionLockstep::finish() {
   if (last_map_.valid()) last_map_.wait();
   const slam::Slam& slam = mapping_.slam();
-  result_.map = mapping_.map_with_covariance();
+  result_.targets = planning_.policy().targets();
+  result_.map = mapping_.map_with_covariance(result_.targets);
   result_.history = slam.history();
   for (std::size_t i = 0; i < result_.scans.size(); ++i) {
     const ScanRecord& scan = result_.scans[i];
@@ -258,7 +259,6 @@ MissionResult MissionLockstep::finish() {
   result_.succeeded = mission.succeeded();
   result_.phase = mission.phase();
   result_.outcome = mission.outcome();
-  result_.targets = planning_.policy().targets();
   result_.counters.stops = guidance_.last_stop().count;
   return std::move(result_);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "autonomy/incomplete_targets.h"
 #include "core/error.h"
 
 namespace saker::autonomy {
@@ -133,8 +134,9 @@ std::shared_ptr<const MapSnapshot> Mapping::cycle(std::span<const detection::Lab
   return snapshot;
 }
 
-objects::ObjectMap Mapping::map_with_covariance() const {
+objects::ObjectMap Mapping::map_with_covariance(std::span<const active::Target> targets) const {
   objects::ObjectMap map = slam_.reported_map();
+  add_incomplete_targets(map, targets);
   noise_.add_common(map);
   return map;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "active/targets.h"
 #include "autonomy/fitted_noise.h"
 #include "autonomy/open_beams.h"
 #include "autonomy/plant.h"
@@ -125,8 +126,10 @@ class Mapping {
 
   [[nodiscard]] const slam::Slam& slam() const { return slam_; }
 
-  /// The objects' covariances are the graph's and what all views of one have in common.
-  [[nodiscard]] objects::ObjectMap map_with_covariance() const;
+  /// The objects' covariances are the graph's and what all views of one have in common. Incomplete
+  /// objects that are targets are in it.
+  [[nodiscard]] objects::ObjectMap map_with_covariance(
+      std::span<const active::Target> targets) const;
 
  private:
   int iterations_;

@@ -174,6 +174,17 @@ Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covarianc
   return Eigen::Vector2d(mean - both, mean + both).cwiseMax(0);
 }
 
+void set_end_variances(Eigen::MatrixXd& covariance, int axis, const Eigen::Vector2d& variances) {
+  const int centre = 3 + axis, size = 6 + axis;
+  for (const int row : {centre, size}) {
+    covariance.row(row).setZero();
+    covariance.col(row).setZero();
+  }
+  covariance(size, size) = variances.sum();
+  covariance(centre, centre) = 0.25 * variances.sum();
+  covariance(centre, size) = covariance(size, centre) = 0.5 * (variances[1] - variances[0]);
+}
+
 bool on_footprint(const Cuboid& cuboid, const Eigen::Vector3d& p) {
   const Eigen::Vector3d q = cuboid.pose.inverse() * p;
   return 2 * std::abs(q.x()) <= cuboid.size.x() && 2 * std::abs(q.y()) <= cuboid.size.y();

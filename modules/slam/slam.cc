@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "objects/stated_length.h"
 #include "slam/landmark_estimate.h"
 
 namespace saker::slam {
@@ -44,6 +45,20 @@ MeasurementNoiseConfig shared_noise(const SlamConfig& config) {
     noise.shared_place = noise.shared_root = 1;
   }
   return noise;
+}
+
+/// No end is known better than the window that saw it best: what others say of a hidden one is the
+/// size of its class, which is the same in all of them. Empty where none saw any.
+void limit_to_seen_ends(Eigen::MatrixXd& covariance, const Landmark& landmark) {
+  if (!is_cuboid(landmark.model) || covariance.size() == 0) return;
+  const Eigen::Vector2d& seen = landmark.ends.best;
+  if (!seen.allFinite()) {
+    covariance.resize(0, 0);
+    return;
+  }
+  const int axis = longer_axis(std::get<objects::Cuboid>(landmark.model));
+  const Eigen::Vector2d known = end_variances(covariance, axis);
+  set_end_variances(covariance, axis, known.cwiseMax(seen.cwiseAbs2()));
 }
 
 /// By its name, as far as its cells agree, and as wide as what windows share asks for; empty where
@@ -268,9 +283,17 @@ objects::ObjectMap Slam::reported_map() const {
   objects::ObjectMap map = map_with_covariance().map;
   std::vector<Keyframe> poses = trajectory_.keyframes();
   const Chain own{&poses};
+  const auto landmark_of = [this](const objects::MapObject& object) -> const Landmark& {
+    return *std::ranges::find(landmarks_, object.id, &Landmark::id);
+  };
   for (objects::MapObject& object : map.objects) {
-    const Landmark& landmark = *std::ranges::find(landmarks_, object.id, &Landmark::id);
-    widen(object.covariance, landmark, {&own, 1}, config_);
+    widen(object.covariance, landmark_of(object), {&own, 1}, config_);
+  }
+  for (objects::MapObject& object : map.incomplete) {
+    const Landmark& landmark = landmark_of(object);
+    GivenPoses given = given_poses(landmark, {&own, 1}, config_.graph);
+    limit_to_seen_ends(given.covariance, landmark);
+    object.covariance = widened(landmark, given, config_);
   }
   return map;
 }

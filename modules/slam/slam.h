@@ -136,6 +136,8 @@ class Slam {
   [[nodiscard]] MapWithCovariance map_with_covariance() const;
 
   /// The same as it is given out: widened by what windows, or with fitted noise cells, share.
+  /// Incomplete objects, which are not in the graph, have theirs given the poses, and no end of
+  /// them is known better than the window that saw it best.
   [[nodiscard]] objects::ObjectMap reported_map() const;
 
   /// Covariances of the named objects, in the order of `ids`; empty matrices for ids that are not

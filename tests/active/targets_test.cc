@@ -100,6 +100,7 @@ TEST(Targets, WithAnIncompleteObjectNearerTakesNoNeighboursAndIsNotMapped) {
   map.incomplete = {vehicle(9, car(0.5, 0.2))};
   targets.associate(map);
   EXPECT_FALSE(targets[0].mapped());
+  EXPECT_EQ(targets[0].incomplete_id, 9);
   EXPECT_DOUBLE_EQ(targets[0].place().x(), 0.5);
 }
 

@@ -112,6 +112,15 @@ TEST(ModelAlgebra, EndVariancesAreThoseOfCentreLessAndPlusHalfTheSize) {
   EXPECT_TRUE(end_variances(covariance, 1).isApprox(Eigen::Vector2d(low, high)));
 }
 
+TEST(ModelAlgebra, EndVariancesThatArePutInAreThose) {
+  Eigen::MatrixXd covariance = 0.3 * Matrix9d::Identity();
+  const Eigen::Vector2d variances(0.01, 0.8);
+  set_end_variances(covariance, 0, variances);
+  EXPECT_TRUE(end_variances(covariance, 0).isApprox(variances));
+  EXPECT_TRUE(end_variances(covariance, 1).isApprox(Eigen::Vector2d(0.375, 0.375)));
+  EXPECT_EQ(covariance.llt().info(), Eigen::Success);
+}
+
 TEST(ModelAlgebra, FusionIsTheInformationWeightedMean) {
   const Matrix9d covariance = 0.04 * Matrix9d::Identity();
   const Model b = moved(car(0), 1e-3 * cuboid_step());

@@ -142,6 +142,25 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
   }
 }
 
+TEST(Slam, NoEndOfAnIncompleteObjectIsReportedBetterThanOneWindowSawIt) {
+  SlamConfig config = honest_config();
+  config.landmarks.most_length_sd_m = 0.01;  // no window states a length so well
+  Drive drive(config, Robot(ring_of_objects(12, 5), {}, 1));
+  drive.along(loop(12, 1, 1));
+  const objects::ObjectMap reported = drive.slam.reported_map();
+  const objects::ObjectMap given = drive.slam.map_given_poses();
+  ASSERT_FALSE(reported.incomplete.empty());
+  const double of_a_window = Noise{}.object_size * Noise{}.object_size;
+  for (std::size_t i = 0; i < reported.incomplete.size(); ++i) {
+    const Eigen::MatrixXd& covariance = reported.incomplete[i].covariance;
+    const Eigen::MatrixXd& of_all = given.incomplete[i].covariance;
+    ASSERT_EQ(covariance.rows(), 9);
+    EXPECT_GT(covariance(6, 6), 0.99 * of_a_window);
+    EXPECT_LT(of_all(6, 6), 0.5 * of_a_window);
+    EXPECT_DOUBLE_EQ(covariance(7, 7), of_all(7, 7)) << "the width is seen";
+  }
+}
+
 TEST(Slam, GivenThePosesPlacesAreKnownBetterAndSizesAsWell) {
   Drive drive(honest_config(), Robot(ring_of_objects(12, 5), {}, 1));
   drive.along(loop(12, 1, 1));
