@@ -8,7 +8,7 @@
 
 namespace saker::autonomy {
 
-/// A simulated flight of four seconds past parked cars, in a folder that is removed at the end.
+/// A simulated flight of six seconds past parked cars, in a folder that is removed at the end.
 class MadeFlight {
  public:
   MadeFlight();
@@ -19,7 +19,7 @@ class MadeFlight {
   [[nodiscard]] std::unique_ptr<lidar::ScanSource> open() const;
   [[nodiscard]] std::filesystem::path truth() const { return folder_ / "truth.json"; }
 
-  static constexpr int kScans = 40;
+  static constexpr int kScans = 60;
 
  private:
   std::filesystem::path folder_;
