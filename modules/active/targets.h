@@ -42,7 +42,7 @@ struct TargetsConfig {
 enum class TargetStatus {
   pending,      ///< to be visited
   done,         ///< seen from enough sides, and mapped
-  visited,      ///< the same, but the map has no object there: the prior may be wrong
+  visited,      ///< the same, but the map has no whole object there: the prior may be wrong
   unreachable,  ///< seen from no side
 };
 
