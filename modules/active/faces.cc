@@ -5,6 +5,16 @@
 #include <cmath>
 
 namespace saker::active {
+namespace {
+
+/// sd beside the fitted one of faces across that axis that are not looked at.
+double hidden_sd(int axis, const Eigen::Vector2d& eye, const FacesConfig& config) {
+  if (axis == 0 || eye.squaredNorm() <= 0) return config.hidden_m;
+  const double beside = eye.y() * eye.y() / eye.squaredNorm();  // sin² of the bearing
+  return std::hypot(config.hidden_m, config.hidden_side_m * beside);
+}
+
+}  // namespace
 
 Covariance by_faces(const Covariance& covariance, double whole, const Eigen::Vector2d& eye,
                     const Eigen::Vector2d& size, const FacesConfig& config) {
@@ -13,7 +23,7 @@ Covariance by_faces(const Covariance& covariance, double whole, const Eigen::Vec
     for (const double sign : {-1.0, 1.0}) {
       const double outside = sign * eye[axis] - 0.5 * size[axis];
       const double looked_at = std::clamp(outside / config.outside_m, 0.0, 1.0);
-      const double hidden = config.hidden_m * (1 - looked_at);
+      const double hidden = hidden_sd(axis, eye, config) * (1 - looked_at);
       const double windows = looked_at + (1 - looked_at) * whole;
       Eigen::Vector4d face = Eigen::Vector4d::Zero();
       face[axis] = sign;

@@ -9,6 +9,7 @@ namespace saker::active {
 
 struct FacesConfig {
   double hidden_m = 0;
+  double hidden_side_m = 0;
   double outside_m = 1;
 
   template <class Visitor>
@@ -17,6 +18,9 @@ struct FacesConfig {
         "hidden_m", hidden_m, {0, 10}, "m",
         "sd that a face has beside the fitted one where a view does not look at it: what its upper "
         "edge does not tell; 0: as if all views measured all faces");
+    v.field("hidden_side_m", hidden_side_m, {0, 10}, "m",
+            "and the far side, seen squarely from beside; less by the square of the sine of the "
+            "bearing towards the ends, where the upper edges of both sides are in view");
     v.field("outside_m", outside_m, {0.01, 20}, "m",
             "that the sensor is outside of a face's plane: it looks at the face");
   }

@@ -48,6 +48,7 @@ struct PamsConfig {
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
     config.faces.hidden_m = 0.06;
+    config.faces.hidden_side_m = 0.2;  // as slam.noise.fitted_hidden_side_m
     config.enough_entropy = -11;
     config.most_size_sd_m = 0.1;
     config.common_counts = true;

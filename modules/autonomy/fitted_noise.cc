@@ -53,15 +53,28 @@ Eigen::Vector4d by_stated(double length_sd, const slam::MeasurementNoiseConfig& 
   return {along, 1, along, 1};
 }
 
+/// Of [x, y, length, width]: where the side is that a window did not show. The near one stays as
+/// well known as the fit says: the width grows away from the lidar.
+Eigen::Matrix4d hidden_side(const objects::Cuboid& cuboid, double width_sd,
+                            const slam::MeasurementNoiseConfig& noise) {
+  const double beyond = std::pow(width_sd, 2) - std::pow(noise.fitted_width_sd_m, 2);
+  const double variance = std::clamp(beyond, 0.0, std::pow(noise.fitted_hidden_side_m, 2));
+  const Eigen::Vector3d eye = cuboid.pose.inverse() * Eigen::Vector3d::Zero();
+  const Eigen::Vector4d grows(0, eye.y() < 0 ? 0.5 : -0.5, 0, 1);
+  return variance * grows * grows.transpose();
+}
+
 void correct(Measurement& m, objects::Cuboid cuboid, const uncertainty::Prediction& fitted,
              const Eigen::Matrix3d&, const slam::MeasurementNoiseConfig& noise) {
   const Eigen::VectorXd& bias = fitted.bias;
   m.length_sd = objects::length_sd(m);
   cuboid.pose.translation() -= cuboid.pose.linear() * Eigen::Vector3d(bias[0], bias[1], 0);
   cuboid.size.head<2>() -= bias.tail<2>();
+  const std::vector<int> rows = objects::planar_rows(m.model);
+  const double width_sd = std::sqrt(m.covariance(rows[3], rows[3]));
   const Eigen::Vector4d scale = by_stated(m.length_sd, noise);
-  m.covariance = with_planar(m.covariance, objects::planar_rows(m.model),
-                             scale.asDiagonal() * fitted.covariance * scale.asDiagonal());
+  const Eigen::Matrix4d both_sides = scale.asDiagonal() * fitted.covariance * scale.asDiagonal();
+  m.covariance = with_planar(m.covariance, rows, both_sides + hidden_side(cuboid, width_sd, noise));
   m.model = cuboid;
 }
 

@@ -21,6 +21,8 @@ struct MeasurementNoiseConfig {
   double shared_cells = 1.5;
   double fitted_length_sd_m = 0.17;
   double fitted_length_power = 1.7;
+  double fitted_width_sd_m = 0.17;
+  double fitted_hidden_side_m = 0.2;
   double shared_root = 4;
   double shared_radius = 80;
   double shared_radius_cells = 10;
@@ -65,6 +67,12 @@ struct MeasurementNoiseConfig {
     v.field("fitted_length_power", fitted_length_power, {0, 4}, "",
             "of what they state over that, by which its standard deviations grow along the "
             "vehicle: their errors grew from 0.04 m at 0.13 m stated to 0.19 m at 0.27 m");
+    v.field("fitted_width_sd_m", fitted_width_sd_m, {0.01, 10}, "m",
+            "standard deviation that windows state of a vehicle's width where they show both of "
+            "its sides: what they state beyond that is where the hidden side is");
+    v.field("fitted_hidden_side_m", fitted_hidden_side_m, {0, 10}, "m",
+            "but no more than this: the class's widths differ by 0.1 m, and four view cells from "
+            "one side say the same of it");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

@@ -53,6 +53,15 @@ TEST(Faces, FromBesideNeitherEndIsLookedAt) {
   EXPECT_GT(face(beside, 0, -1), kHidden * kHidden);
 }
 
+TEST(Faces, TheFarSideIsHiddenFromBesideAndHardlyFromAnEnd) {
+  const auto far_side = [](double x, double y) {
+    return face(by_faces(of_faces(), 1, {x, y}, kSize, {.hidden_side_m = kHidden}), 1, -1);
+  };
+  EXPECT_NEAR(far_side(0, 7), 0.05 * 0.05 + kHidden * kHidden, 1e-9);
+  EXPECT_NEAR(far_side(7, 7), 0.05 * 0.05 + kHidden * kHidden / 4, 1e-9);
+  EXPECT_LT(far_side(9, 3), 0.05 * 0.05 + kHidden * kHidden / 50);
+}
+
 TEST(Faces, ALookFromTheOtherSideTellsMoreThanOneMoreFromThisSide) {
   const Eigen::Matrix4d first = seen_from(8, -6).inverse();
   const Eigen::Matrix4d beside = seen_from(6, -8).inverse(), across = seen_from(-8, 6).inverse();

@@ -43,7 +43,8 @@ Measurement car(double range, double yaw) {
   m.covariance = Vector9d::LinSpaced(0.01, 0.09).asDiagonal();
   m.covariance(5, 8) = m.covariance(8, 5) = 0.02;
   m.covariance(3, 6) = m.covariance(6, 3) = 0.01;
-  m.length_sd = 0.15;  // as most windows state it
+  m.covariance(7, 7) = 0.15 * 0.15;  // both sides were seen
+  m.length_sd = 0.15;                // as most windows state it
   m.front_log_odds = 2;
   return m;
 }
@@ -130,6 +131,23 @@ TEST(FittedNoise, ALengthThatIsStatedWorseThanMostIsAsMuchWorseAndSoIsThePlaceAl
   const Eigen::Matrix4d wanted = scale.asDiagonal() * fit.covariance * scale.asDiagonal();
   EXPECT_TRUE(Eigen::Matrix4d(after.covariance(plan, plan)).isApprox(wanted, 1e-9));
   EXPECT_NEAR(after.length_sd, 0.24, 1e-12);
+}
+
+TEST(FittedNoise, AHiddenSideIsKnownAsBadlyAsWidthsDifferTheNearOneAsTheFitSays) {
+  for (const double yaw : {1.2, -1.2}) {  // the lidar is to the right, then to the left
+    Measurement m = car(8, yaw);
+    m.covariance(7, 7) = 0.4 * 0.4;  // more than the limit
+    const Eigen::MatrixXd P = applied(m).covariance;
+    const std::vector<int> plan = objects::planar_rows(m.model);
+    const Eigen::Matrix4d known = expected(kVehicle, 8, std::numbers::pi - 1.2).covariance;
+    const double near = yaw > 0 ? 1 : -1;
+    const Eigen::Vector4d near_side(0, near, 0, 0.5), far_side(0, -near, 0, 0.5);
+    const Eigen::Matrix4d after = P(plan, plan);
+    const double hidden = slam::MeasurementNoiseConfig().fitted_hidden_side_m;
+    EXPECT_NEAR(near_side.dot(after * near_side), near_side.dot(known * near_side), 1e-9);
+    EXPECT_NEAR(far_side.dot(after * far_side) - far_side.dot(known * far_side), hidden * hidden,
+                1e-9);
+  }
 }
 
 TEST(FittedNoise, AVehicleMeasuredBackToFrontIsTheSame) {
