@@ -40,7 +40,8 @@ uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& targ
                                   const ViewModel& model, const PamsConfig& config) {
   uncertainty::Prediction prediction =
       model.predict(target.class_id, view_from(eye, target, model));
-  if (config.faces.hidden_m > 0 && !is_cylinder(target.class_id, model)) {
+  const bool by_face = config.faces.hidden_m > 0 || config.faces.hidden_side_m > 0;
+  if (by_face && !is_cylinder(target.class_id, model)) {
     const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
     prediction.covariance = by_faces(prediction.covariance, prediction.whole, in_box.head<2>(),
                                      target.extent.size.head<2>(), config.faces);
