@@ -132,8 +132,8 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
     points.push_back({(T_local_level * p.position.cast<double>()).cast<float>(),
                       static_cast<float>(window_.seconds[p.scan])});
   }
-  const VehicleFit fit = fit_vehicle(
-      points, {moved(T_local_level, window_.sensors), beams_, T_level_local}, config_.vehicle);
+  const Sight sight{moved(T_local_level, window_.sensors), beams_, surroundings_, T_level_local};
+  const VehicleFit fit = fit_vehicle(points, sight, config_.vehicle);
   if (fit.status == VehicleStatus::too_large || fit.status == VehicleStatus::parted) {
     split_vehicle(indices, splits, result);
   }

@@ -76,9 +76,38 @@ double unlike(double size, double hidden_m, const SizePrior& prior) {
   return size > prior.mean ? size - prior.mean : std::max(0.0, prior.mean - size - hidden_m);
 }
 
-Rectangle rectangle(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
+/// A slab across the low or the high end of the footprint's first axis.
+objects::Cuboid end_of(const Footprint& footprint, int end, const VehicleConfig& config) {
+  const double inward = config.noise.amid_others.depth_m, outward = config.noise.beyond.near_m;
+  Eigen::Vector2d low = footprint.low, high = footprint.high;
+  const double at = end == 0 ? low.x() : high.x();
+  low.x() = end == 0 ? at - outward : at - inward;
+  high.x() = end == 0 ? at + inward : at + outward;
+  return upright(footprint.direction, {low, high}, {config.lowest_m, config.highest_m});
+}
+
+/// By which an end is less well known where more points of no object than its own stand about it.
+/// Sides are not: they err no more there.
+double doubt_amid_others(const std::vector<BodyPoint>& points, const objects::Cuboid& end,
+                         const Sight& sight, const AmidOthersConfig& config) {
+  const SE3 T_end_local = end.pose.inverse();
+  const Eigen::Vector2d half = 0.5 * end.size.head<2>();
+  const auto own = std::ranges::count_if(points, [&](const BodyPoint& p) {
+    const Eigen::Vector3d at = T_end_local * p.position.cast<double>();
+    return std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y();
+  });
+  const double others = sight.others(end);
+  return others > config.share * (others + static_cast<double>(own)) ? config.sd_m : 0;
+}
+
+Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& points,
+                    const Sight& sight, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
-  const Edges edges = edges_of(footprint, sight, config.noise);
+  Edges edges = edges_of(footprint, sight, config.noise);
+  for (int end = 0; end < 2; ++end) {
+    edges[0][end].sd += doubt_amid_others(points, end_of(footprint, end, config), sight,
+                                          config.noise.amid_others);
+  }
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {
     const SizePrior prior = prior_of(k, config);
@@ -98,9 +127,10 @@ Rectangle rectangle(const Footprint& footprint, const Sight& sight, const Vehicl
 }
 
 /// The side that is longer need not be the length where one face alone was seen.
-Rectangle likelier(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
-  const Rectangle straight = rectangle(footprint, sight, config);
-  const Rectangle across = rectangle(turned(footprint), sight, config);
+Rectangle likelier(const Footprint& footprint, const std::vector<BodyPoint>& points,
+                   const Sight& sight, const VehicleConfig& config) {
+  const Rectangle straight = rectangle(footprint, points, sight, config);
+  const Rectangle across = rectangle(turned(footprint), points, sight, config);
   return across.cost < straight.cost ? across : straight;
 }
 
@@ -190,7 +220,7 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
     fit.status = VehicleStatus::parted;
     return fit;
   }
-  const Rectangle best = likelier(footprint, sight, config);
+  const Rectangle best = likelier(footprint, points, sight, config);
   fit.cuboid = cuboid_of(best, top);
   fit.covariance = covariance_of(best, config.noise);
   fit.front_log_odds = front_log_odds(points, fit.motion, best, config);

@@ -8,6 +8,7 @@
 #include "detection/footprint.h"
 #include "detection/interval.h"
 #include "detection/motion.h"
+#include "detection/surroundings.h"
 #include "objects/measurement.h"
 
 /// The virtual sensor of vehicles: a cluster's points to a cuboid with covariance.
@@ -15,8 +16,9 @@
 /// Reads points in the local ground's frame (z = 0 the ground), with the scan each came from, and
 /// what their beams went through. Motion, footprint (footprint.h), then the edges (edges.h): one
 /// beside which beams went on is measured; of one that was hidden the class's size says where it
-/// likely is, with a covariance that says so (interval.h). What beams go through in the middle is
-/// more than one vehicle. The lower end is the front (paper, III-A).
+/// likely is, with a covariance that says so (interval.h); one amid points of no object is
+/// doubtful. What beams go through in the middle is more than one vehicle. The lower end is the
+/// front (paper, III-A).
 namespace saker::detection {
 
 /// The space beside an edge in which beams show that the vehicle ends there.
@@ -87,6 +89,24 @@ struct SetbackConfig {
   }
 };
 
+/// An end amid points of no object: what stands there, a bush behind the vehicle, say, may have been
+/// taken for a part of it.
+struct AmidOthersConfig {
+  double depth_m = 0.4;
+  double share = 0.7;
+  double sd_m = 0.7;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("depth_m", depth_m, {0.05, 2}, "m",
+            "inward from the end, and outward beyond.near_m: where they are counted");
+    v.field("share", share, {0, 1}, "",
+            "of all points there, above which the end is doubtful: one in 300 well seen");
+    v.field("sd_m", sd_m, {0, 10}, "m",
+            "standard deviation of such an end: in simulation 0.71, of others 0.06");
+  }
+};
+
 struct VehicleNoiseConfig {
   double edge_m = 0.04;
   double edge_per_m = 0.003;
@@ -97,6 +117,7 @@ struct VehicleNoiseConfig {
   double top_m = 0.08;
   BeyondConfig beyond;
   SetbackConfig setback;
+  AmidOthersConfig amid_others;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -112,6 +133,7 @@ struct VehicleNoiseConfig {
     v.field("top_m", top_m, {0.001, 2}, "m", "of the top");
     v.group("beyond", beyond, "free space that shows an edge");
     v.group("setback", setback, "faces that no sensor looked at");
+    v.group("amid_others", amid_others, "ends amid points of no object");
   }
 };
 
@@ -189,7 +211,8 @@ struct VehicleFit {
 struct Sight {
   std::vector<Eigen::Vector3d> sensors;  ///< where the scans were taken, in the frame of the points
   const Beams& beams;
-  SE3 T_level_local;  ///< from the frame of the points to that of the beams
+  const Surroundings& surroundings;
+  SE3 T_level_local;  ///< from the frame of the points to that of the beams and the surroundings
 
   /// \param box in the frame of the points
   [[nodiscard]] int through(const objects::Cuboid& box) const {
@@ -197,6 +220,10 @@ struct Sight {
   }
   [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const {
     return beams.nearest(objects::transformed(T_level_local, box), count, least_m);
+  }
+  /// Points of no object in the box.
+  [[nodiscard]] int others(const objects::Cuboid& box) const {
+    return surroundings.inside(objects::transformed(T_level_local, box));
   }
 };
 

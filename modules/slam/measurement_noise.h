@@ -18,7 +18,6 @@ struct MeasurementNoiseConfig {
   double shared_place = 2.5;
   double shared_length = 3;
   double shared_width = 1;
-  double shared_cells = 1.5;
   double fitted_length_sd_m = 0.17;
   double fitted_length_power = 1.7;
   double fitted_width_sd_m = 0.17;
@@ -56,11 +55,6 @@ struct MeasurementNoiseConfig {
         "no side shows is missed in all of them; by the NEES of eight flights");
     v.field("shared_length", shared_length, {1, 10000}, "", "the same of its length");
     v.field("shared_width", shared_width, {1, 10000}, "", "the same of its width");
-    v.field(
-        "shared_cells", shared_cells, {1, 10000}, "",
-        "view cells that say as much of a vehicle's size as the graph believes of one, with fitted "
-        "noise: among neighbours errors are larger than on spirals; by the NEES of "
-        "eighteen missions");
     v.field("fitted_length_sd_m", fitted_length_sd_m, {0.01, 10}, "m",
             "standard deviation that most windows of the fit stated of a vehicle's length: those "
             "that state more weigh less than the fitted covariance has it");

@@ -40,9 +40,8 @@ std::vector<Landmark*> believed_ones(std::vector<Landmark>& landmarks,
 MeasurementNoiseConfig shared_noise(const SlamConfig& config) {
   MeasurementNoiseConfig noise = config.noise;
   if (config.measurement_noise == NoiseSource::fitted) {  // cells count once
-    noise.shared_length = noise.shared_width = noise.shared_cells;
     noise.shared_radius = noise.shared_radius_cells;
-    noise.shared_place = noise.shared_root = 1;
+    noise.shared_place = noise.shared_length = noise.shared_width = noise.shared_root = 1;
   }
   return noise;
 }

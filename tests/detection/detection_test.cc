@@ -132,6 +132,35 @@ TEST(Detection, PointsOfNoObjectInsideAVehicleSpeakAgainstIt) {
   EXPECT_LT(found.measurements[0].class_probability[1], 0.75);
 }
 
+/// Of the length of a vehicle seen from beside, at whose rear a bush stands: some of its leaves are
+/// taken for the vehicle's, `others` are not.
+double length_sd_with_bush(int others) {
+  SceneBuilder scene;
+  core::Rng rng(5);
+  const Eigen::Vector3d sensor(0, 0, 2);
+  scene.add_ground(0, 20, rng);
+  scene.solids = {{.x = 0, .y = 8},
+                  {.x = -2.7, .y = 7.3, .yaw = 0, .length = 0.6, .width = 0.6, .height = 1.4}};
+  scene.add(visible_box({.x = 0, .y = 8}, sensor, 4000, 0.02, rng), 1);
+  const auto add_leaves = [&](int count, std::uint8_t class_id) {
+    for (int i = 0; i < count; ++i) {
+      scene.add({{rng.uniform(-3, -2.4), rng.uniform(7, 7.6), rng.uniform(0.3, 1.4)}}, class_id);
+    }
+  };
+  add_leaves(100, 1);
+  add_leaves(others, 0);
+  Detection detection({}, {});
+  const std::vector<LabelledScan> window = {scene.scan(0, sensor_at(2))};
+  const objects::Detections found = detection.detect(window);
+  EXPECT_EQ(found.measurements.size(), 1u);
+  return found.measurements.empty() ? NAN : std::sqrt(found.measurements[0].covariance(6, 6));
+}
+
+TEST(Detection, EndAmidPointsOfNoObjectIsDoubtful) {
+  EXPECT_LT(length_sd_with_bush(0), 0.3);
+  EXPECT_GT(length_sd_with_bush(300), AmidOthersConfig().sd_m);
+}
+
 TEST(Detection, CylinderWithLeavesAboveItIsRatherATrunkAndABareOneAPole) {
   for (const bool leaves : {true, false}) {
     SceneBuilder scene;

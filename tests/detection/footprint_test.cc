@@ -94,7 +94,8 @@ TEST(Footprint, FaceNobodyLookedAtStandsBackAndIsLessWellKnown) {
   const Footprint footprint = fit_footprint(outline(0), {});
   Beams none;
   none.fill(Window());
-  const Sight from_the_right{{{0, -8, 3}}, none, SE3::Identity()};
+  const Surroundings bare({});
+  const Sight from_the_right{{{0, -8, 3}}, none, bare, SE3::Identity()};
   const VehicleNoiseConfig noise;
   const Footprint seen = as_seen(footprint, from_the_right, noise.setback);
   EXPECT_DOUBLE_EQ(seen.low.y(), footprint.low.y());
@@ -107,7 +108,8 @@ TEST(Footprint, FaceSeenFromBesideIsAnOutline) {
   const Footprint footprint = fit_footprint(with_mirrors(outline(0), 0), {});
   Beams none;
   none.fill(Window());
-  const Sight from_behind{{{-9, 0, 2}}, none, SE3::Identity()};
+  const Surroundings bare({});
+  const Sight from_behind{{{-9, 0, 2}}, none, bare, SE3::Identity()};
   const VehicleNoiseConfig noise;
   const Footprint seen = as_seen(footprint, from_behind, noise.setback);
   EXPECT_DOUBLE_EQ(seen.low.y(), footprint.outer_low.y());
@@ -131,7 +133,7 @@ Edges edges_over_the_roof(const Footprint& footprint, double free_from_m) {
   }
   Beams beams;
   beams.fill(window);
-  return edges_of(footprint, {window.sensors, beams, SE3::Identity()}, {});
+  return edges_of(footprint, {window.sensors, beams, Surroundings({}), SE3::Identity()}, {});
 }
 
 TEST(Footprint, HiddenEndLiesBetweenWhatWasSeenAndWhereBeamsWentThrough) {

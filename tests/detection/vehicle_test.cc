@@ -60,7 +60,7 @@ struct Scene {
   [[nodiscard]] VehicleFit fit() const { return fitted_to(points()); }
 
   [[nodiscard]] VehicleFit fitted_to(const std::vector<BodyPoint>& points) const {
-    return fit_vehicle(points, {{sensor}, beams(), SE3::Identity()}, config);
+    return fit_vehicle(points, {{sensor}, beams(), Surroundings({}), SE3::Identity()}, config);
   }
 };
 

@@ -132,7 +132,7 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
       };
       if (is_cuboid(own.objects[i].model)) {
         expect_widened(3, all ? noise.shared_place : 1);
-        expect_widened(6, all ? noise.shared_length : noise.shared_cells);
+        expect_widened(6, all ? noise.shared_length : 1);
         expect_widened(8, 1);
       } else {
         expect_widened(0, all ? noise.shared_root : 1);
