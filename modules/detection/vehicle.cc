@@ -105,8 +105,8 @@ Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& po
   Rectangle result{footprint, {}, 0};
   Edges edges = edges_of(footprint, sight, config.noise);
   for (int end = 0; end < 2; ++end) {
-    edges[0][end].sd += doubt_amid_others(points, end_of(footprint, end, config), sight,
-                                          config.noise.amid_others);
+    edges[0][end].sd +=
+        doubt_amid_others(points, end_of(footprint, end, config), sight, config.noise.amid_others);
   }
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {

@@ -89,8 +89,8 @@ struct SetbackConfig {
   }
 };
 
-/// An end amid points of no object: what stands there, a bush behind the vehicle, say, may have been
-/// taken for a part of it.
+/// An end amid points of no object: what stands there, a bush behind the vehicle, say, may have
+/// been taken for a part of it.
 struct AmidOthersConfig {
   double depth_m = 0.4;
   double share = 0.7;
@@ -221,7 +221,7 @@ struct Sight {
   [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const {
     return beams.nearest(objects::transformed(T_level_local, box), count, least_m);
   }
-  /// Points of no object in the box.
+  /// \return points of no object in the box, between the heights of `SurroundingsConfig`
   [[nodiscard]] int others(const objects::Cuboid& box) const {
     return surroundings.inside(objects::transformed(T_level_local, box));
   }
