@@ -135,7 +135,7 @@ bool PamsPolicy::choose_among(int index, const std::vector<bool>& region, Sampli
   }
   Choice choice = choice_among(index, samples);
   std::optional<Path> path = best_path(choice);
-  if (!path && !size_is_known(index, known_of(index), 1)) {
+  if (!path && !targets_[index].discovered && !size_is_known(index, known_of(index), 1)) {
     choice.problem.price_per_s = pams_.least_price_per_s;
     path = best_path(choice);
   }

@@ -46,7 +46,7 @@ objects::Detections Detection::detect(std::span<const LabelledScan> window) {
   if (window.empty()) return result;
   result.stamp = window.back().stamp;
   gather(window, table_, config_.window, window_);
-  ground_.fit(window_.ground, config_.window.range_m);
+  ground_.fit(window_.ground, window_.cuboids, config_.window.range_m);
   surroundings_.fill(window_.others, config_.window.other_stride, ground_);
   beams_.fill(window_);
   detect_vehicles(result);
@@ -130,7 +130,7 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
   for (const int i : indices) {
     const ClassPoint& p = window_.cuboids[i];
     points.push_back({(T_local_level * p.position.cast<double>()).cast<float>(),
-                      static_cast<float>(window_.seconds[p.scan])});
+                      static_cast<float>(window_.seconds[p.scan]), p.probability});
   }
   const Sight sight{moved(T_local_level, window_.sensors), beams_, surroundings_, T_level_local};
   const VehicleFit fit = fit_vehicle(points, sight, config_.vehicle);

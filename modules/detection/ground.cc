@@ -35,10 +35,12 @@ Eigen::Vector3d fit_plane(const std::vector<Eigen::Vector3d>& points, const Grou
 
 }  // namespace
 
-void Ground::fit(const std::vector<Eigen::Vector3f>& points, double range) {
+void Ground::fit(const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<ClassPoint>& vehicles, double range) {
   size_ = 2 * static_cast<int>(std::ceil(range / config_.cell_m));
   half_ = 0.5 * size_ * config_.cell_m;
-  accumulate(points);
+  accumulate(points, vehicles);
+  leave_out_bonnets();
   cells_.assign(static_cast<std::size_t>(size_) * size_, std::nullopt);
   for (int row = 0; row < size_; ++row) {
     for (int column = 0; column < size_; ++column) {
@@ -55,20 +57,57 @@ void Ground::fit(const std::vector<Eigen::Vector3f>& points, double range) {
   for (const std::size_t i : refused) cells_[i].reset();
 }
 
-void Ground::accumulate(const std::vector<Eigen::Vector3f>& points) {
-  const int edge = size_ * config_.squares;
-  const float per_m = static_cast<float>(config_.squares / config_.cell_m);
-  const float half = static_cast<float>(half_);
-  const float rim = static_cast<float>(edge);
-  squares_.assign(static_cast<std::size_t>(edge) * edge, Square{});
+void Ground::accumulate(const std::vector<Eigen::Vector3f>& points,
+                        const std::vector<ClassPoint>& vehicles) {
+  const auto edge = static_cast<std::size_t>(size_ * config_.squares);
+  squares_.assign(edge * edge, Square{});
   for (const Eigen::Vector3f& p : points) {
-    const float column = (p.x() + half) * per_m;
-    const float row = (p.y() + half) * per_m;
-    if (!(column >= 0 && row >= 0 && column < rim && row < rim)) continue;
-    Square& square = squares_[static_cast<std::size_t>(row) * edge + static_cast<int>(column)];
-    square.sum += p;
-    ++square.count;
+    Square* square = square_at(p);
+    if (square == nullptr) continue;
+    square->sum += p;
+    ++square->count;
   }
+  for (const ClassPoint& point : vehicles) {
+    Square* square = square_at(point.position);
+    if (square != nullptr) square->lowest = std::min(square->lowest, point.position.z());
+  }
+}
+
+/// None outside of the grid.
+Ground::Square* Ground::square_at(const Eigen::Vector3f& p) {
+  const int edge = size_ * config_.squares;
+  const auto per_m = static_cast<float>(config_.squares / config_.cell_m);
+  const auto half = static_cast<float>(half_), rim = static_cast<float>(edge);
+  const float column = (p.x() + half) * per_m;
+  const float row = (p.y() + half) * per_m;
+  if (!(column >= 0 && row >= 0 && column < rim && row < rim)) return nullptr;
+  return &squares_[static_cast<std::size_t>(row) * edge + static_cast<std::size_t>(column)];
+}
+
+/// What was called ground, but lies over a vehicle.
+void Ground::leave_out_bonnets() {
+  const int edge = size_ * config_.squares;
+  const auto most_over = static_cast<float>(config_.most_over_m);
+  for (int row = 0; row < edge; ++row) {
+    for (int column = 0; column < edge; ++column) {
+      Square& square = squares_[static_cast<std::size_t>(row) * edge + column];
+      if (square.count == 0) continue;
+      const float height = square.sum.z() / static_cast<float>(square.count);
+      if (height > lowest_about(column, row) + most_over) square.count = 0;
+    }
+  }
+}
+
+/// Of the vehicles' points in the square and its neighbours, m.
+float Ground::lowest_about(int column, int row) const {
+  const int edge = size_ * config_.squares;
+  float lowest = std::numeric_limits<float>::infinity();
+  for (int r = std::max(0, row - 1); r <= std::min(edge - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(edge - 1, column + 1); ++c) {
+      lowest = std::min(lowest, squares_[static_cast<std::size_t>(r) * edge + c].lowest);
+    }
+  }
+  return lowest;
 }
 
 /// Mean points of the squares in the cell and half a cell around it, relative to its centre.

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/config.h"
+#include "detection/window.h"
 #include "objects/models.h"
 
 /// Local ground planes on a grid, after the ground features of Chen et al., "SLOAM", RA-L 2020.
@@ -27,6 +29,7 @@ struct GroundConfig {
   double slope_sd = 0.15;
   double most_slope_deg = 30;
   double most_step_m = 0.5;
+  double most_over_m = 0.3;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -46,6 +49,9 @@ struct GroundConfig {
     v.field("most_slope_deg", most_slope_deg, {1, 80}, "deg", "a steeper plane is refused");
     v.field("most_step_m", most_step_m, {0.05, 10}, "m",
             "a plane that is farther off the median of its neighbours is refused");
+    v.field("most_over_m", most_over_m, {0, 10}, "m",
+            "a square that lies farther over a vehicle's point in it or beside it is no ground, "
+            "but a bonnet: more than ground rises from one square to the next");
   }
 };
 
@@ -54,7 +60,9 @@ class Ground {
   explicit Ground(const GroundConfig& config) : config_(config) {}
 
   /// Replaces what was known. Points farther than `range` from the origin are ignored.
-  void fit(const std::vector<Eigen::Vector3f>& points, double range);
+  /// \param vehicles  of which ground lies below
+  void fit(const std::vector<Eigen::Vector3f>& points, const std::vector<ClassPoint>& vehicles,
+           double range);
 
   /// The plane of the cell under p, or the nearest one within reach; none where ground was not
   /// seen.
@@ -67,9 +75,14 @@ class Ground {
   struct Square {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int count = 0;
+    float lowest = std::numeric_limits<float>::infinity();  ///< of a vehicle's points, m
   };
 
-  void accumulate(const std::vector<Eigen::Vector3f>& points);
+  void accumulate(const std::vector<Eigen::Vector3f>& points,
+                  const std::vector<ClassPoint>& vehicles);
+  [[nodiscard]] Square* square_at(const Eigen::Vector3f& p);
+  void leave_out_bonnets();
+  [[nodiscard]] float lowest_about(int column, int row) const;
   [[nodiscard]] const std::vector<Eigen::Vector3d>& support(int column, int row);
   [[nodiscard]] std::optional<objects::GroundPlane> fit_cell(int column, int row);
   [[nodiscard]] bool stands_off(int column, int row) const;

@@ -86,15 +86,16 @@ objects::Cuboid end_of(const Footprint& footprint, int end, const VehicleConfig&
   return upright(footprint.direction, {low, high}, {config.lowest_m, config.highest_m});
 }
 
-/// Added to the sd of an end where most of the points about it are of no object. Not to a side's:
-/// sides err no more there.
+/// Added to the sd of an end where most of the points about it are of no object, those aside that
+/// may be. Not to a side's: sides err no more there.
 double doubt_amid_others(const std::vector<BodyPoint>& points, const objects::Cuboid& end,
                          const Sight& sight, const AmidOthersConfig& config) {
   const SE3 T_end_local = end.pose.inverse();
   const Eigen::Vector2d half = 0.5 * end.size.head<2>();
   const auto own = std::ranges::count_if(points, [&](const BodyPoint& p) {
     const Eigen::Vector3d at = T_end_local * p.position.cast<double>();
-    return std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y();
+    return p.probability >= config.sure_probability && std::abs(at.x()) < half.x() &&
+           std::abs(at.y()) < half.y();
   });
   const double others = sight.others(end);
   return others > config.share * (others + static_cast<double>(own)) ? config.sd_m : 0;

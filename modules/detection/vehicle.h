@@ -93,16 +93,20 @@ struct SetbackConfig {
 /// been taken for a part of it.
 struct AmidOthersConfig {
   double depth_m = 0.4;
-  double share = 0.7;
+  double sure_probability = 0.9;
+  double share = 0.85;
   double sd_m = 0.7;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("depth_m", depth_m, {0.05, 2}, "m",
             "inward from the end, and outward beyond.near_m: where they are counted");
+    v.field("sure_probability", sure_probability, {0, 1}, "",
+            "of its class, from which on a point counts as the vehicle's: one in nine is below, of "
+            "leaves that were taken for a vehicle all are");
     v.field("share", share, {0, 1}, "",
-            "of all points there, above which the end is doubtful: one in 300 well seen; at "
-            "0.5 right ends of a real drive are, too");
+            "of these points and those of no object together, above which the end is doubtful; "
+            "below 0.85 right ends of a real drive are, too");
     v.field("sd_m", sd_m, {0, 10}, "m",
             "more standard deviation of such an end: in simulation they err by 0.71, others by "
             "0.06");
@@ -196,6 +200,7 @@ struct VehicleConfig {
 struct BodyPoint {
   Eigen::Vector3f position;
   float seconds = 0;
+  float probability = 1;  ///< of the class that it is labelled
 };
 
 /// `parted`: beams went through the middle of it, it is more than one thing.

@@ -133,18 +133,19 @@ TEST(Detection, PointsOfNoObjectInsideAVehicleSpeakAgainstIt) {
 }
 
 /// Of the length of a vehicle seen from beside, at whose rear a bush stands: some of its leaves are
-/// taken for the vehicle's, `others` are not.
-double length_sd_with_bush(int others) {
+/// taken for the vehicle's, with a probability, `others` are not.
+double length_sd_with_bush(int others, float probability) {
   SceneBuilder scene;
   core::Rng rng(5);
   const Eigen::Vector3d sensor(0, 0, 2);
   scene.add_ground(0, 20, rng);
   scene.solids = {{.x = 0, .y = 8},
                   {.x = -2.7, .y = 7.3, .yaw = 0, .length = 0.6, .width = 0.6, .height = 1.4}};
-  scene.add(visible_box({.x = 0, .y = 8}, sensor, 4000, 0.02, rng), 1);
+  scene.add(visible_box({.x = 0, .y = 8}, sensor, 4000, 0.02, rng), 1, 0.95f);
   const auto add_leaves = [&](int count, std::uint8_t class_id) {
     for (int i = 0; i < count; ++i) {
-      scene.add({{rng.uniform(-3, -2.4), rng.uniform(7, 7.6), rng.uniform(0.3, 1.4)}}, class_id);
+      scene.add({{rng.uniform(-3, -2.4), rng.uniform(7, 7.6), rng.uniform(0.3, 1.4)}}, class_id,
+                probability);
     }
   };
   add_leaves(100, 1);
@@ -157,8 +158,13 @@ double length_sd_with_bush(int others) {
 }
 
 TEST(Detection, EndAmidPointsOfNoObjectIsDoubtful) {
-  EXPECT_LT(length_sd_with_bush(0), 0.3);
-  EXPECT_GT(length_sd_with_bush(300), AmidOthersConfig().sd_m);
+  EXPECT_LT(length_sd_with_bush(0, 0.95f), 0.3);
+  EXPECT_GT(length_sd_with_bush(1000, 0.95f), AmidOthersConfig().sd_m);
+}
+
+TEST(Detection, EndOfPointsThatMayBeOfNoObjectIsDoubtfulAmidFewOfThem) {
+  EXPECT_LT(length_sd_with_bush(150, 0.95f), 0.3);
+  EXPECT_GT(length_sd_with_bush(150, 0.6f), AmidOthersConfig().sd_m);
 }
 
 TEST(Detection, CylinderWithLeavesAboveItIsRatherATrunkAndABareOneAPole) {

@@ -22,7 +22,7 @@ std::vector<Eigen::Vector3f> sloped(double slope, double outliers, core::Rng& rn
 TEST(Ground, FindsTheHeightAndNormalOfASlope) {
   core::Rng rng(1);
   Ground ground({});
-  ground.fit(sloped(0.2, 0, rng), 30);
+  ground.fit(sloped(0.2, 0, rng), {}, 30);
   const auto* plane = ground.at({5, 3, 0});
   ASSERT_NE(plane, nullptr);
   EXPECT_NEAR(plane->height_of({5, 3, 1}), 0, 0.02);
@@ -39,15 +39,39 @@ TEST(Ground, IsNotLiftedByABonnetCalledGround) {
     return p.x() > 4 && p.x() < 5.5 && p.y() > 2 && p.y() < 3.5 && p.z() < 0.5;
   });
   Ground ground({});
-  ground.fit(points, 30);
+  ground.fit(points, {}, 30);
   ASSERT_NE(ground.at({4.7, 2.7, 0}), nullptr);
   EXPECT_NEAR(ground.at({4.7, 2.7, 0})->height_of({4.7, 2.7, 0}), 0, 0.05);
+}
+
+/// A vehicle with its front to +x, of whose surroundings the ground behind it alone is seen, and
+/// whose bonnet was called ground. Height of the ground under it.
+double height_under_bonnet(bool vehicle_seen) {
+  core::Rng rng(4);
+  std::vector<Eigen::Vector3f> points;
+  std::vector<ClassPoint> vehicle;
+  for (int i = 0; i < 400; ++i) {
+    const auto y = static_cast<float>(rng.uniform(-0.9, 0.9));
+    points.emplace_back(static_cast<float>(rng.uniform(-5, -2.5)), y, 0);
+    points.emplace_back(static_cast<float>(rng.uniform(1, 2.2)), y, 1);
+    const auto x = static_cast<float>(rng.uniform(-2.2, 2.2));
+    if (vehicle_seen) vehicle.push_back({{x, -0.9f, static_cast<float>(rng.uniform(0.2, 1))}});
+  }
+  Ground ground({});
+  ground.fit(points, vehicle, 30);
+  const objects::GroundPlane* plane = ground.at({1, 0, 0});
+  return plane == nullptr ? NAN : -plane->height_of({1, 0, 0});
+}
+
+TEST(Ground, DoesNotLieOverAVehicle) {
+  EXPECT_GT(height_under_bonnet(false), 0.5);  // nothing else tells
+  EXPECT_NEAR(height_under_bonnet(true), 0, 0.05);
 }
 
 TEST(Ground, IsNotKnownFarFromWhereItWasSeen) {
   core::Rng rng(3);
   Ground ground({});
-  ground.fit(sloped(0, 0, rng), 60);
+  ground.fit(sloped(0, 0, rng), {}, 60);
   EXPECT_NE(ground.at({18, 0, 0}), nullptr);
   EXPECT_EQ(ground.at({40, 0, 0}), nullptr);
   EXPECT_EQ(ground.at({NAN, 0, 0}), nullptr);
@@ -55,7 +79,7 @@ TEST(Ground, IsNotKnownFarFromWhereItWasSeen) {
 
 TEST(Ground, OfNoPointsHasNoPlanes) {
   Ground ground({});
-  ground.fit({}, 60);
+  ground.fit({}, {}, 60);
   EXPECT_TRUE(ground.planes().empty());
 }
 

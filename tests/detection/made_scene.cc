@@ -67,8 +67,10 @@ std::vector<Eigen::Vector3d> visible_cylinder(const Eigen::Vector3d& root,
   return result;
 }
 
-void SceneBuilder::add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id) {
+void SceneBuilder::add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id,
+                       float class_probability) {
   points.insert(points.end(), more.begin(), more.end());
+  probability.insert(probability.end(), more.size(), class_probability);
   classes.insert(classes.end(), more.size(), class_id);
 }
 
@@ -91,8 +93,8 @@ LabelledScan SceneBuilder::scan(double seconds, const SE3& T_odom_lidar) const {
     if (classes[i] == kGround && std::ranges::any_of(solids, hidden)) continue;
     cloud->push_back((T_odom_lidar.inverse() * points[i]).cast<float>());
     labels->classes.push_back(classes[i]);
+    labels->probability.push_back(probability[i]);
   }
-  labels->probability.assign(cloud->size(), 0.9f);
   return {from_seconds(seconds), T_odom_lidar, cloud, labels};
 }
 

@@ -31,9 +31,11 @@ std::vector<Eigen::Vector3d> visible_cylinder(const Eigen::Vector3d& root,
 struct SceneBuilder {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::uint8_t> classes;
+  std::vector<float> probability;  ///< of the classes
   std::vector<MadeBox> solids;  ///< the ground behind them is not seen
 
-  void add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id);
+  void add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id,
+           float class_probability = 0.9f);
   /// A plane z = slope · x under the whole scene.
   void add_ground(double slope, double half, core::Rng& rng);
   [[nodiscard]] LabelledScan scan(double seconds, const SE3& T_odom_lidar) const;
