@@ -19,4 +19,10 @@ namespace saker::objects {
   return std::sqrt(measured.covariance(row, row));
 }
 
+/// m, of its shorter edge: whether both its sides were seen.
+[[nodiscard]] inline double width_sd(const Measurement& measured) {
+  const int row = 7 - longer_axis(std::get<Cuboid>(measured.model));
+  return std::sqrt(measured.covariance(row, row));
+}
+
 }  // namespace saker::objects

@@ -21,8 +21,10 @@ struct Evaluation {
   double constant_error = NAN;       ///< the same of the mean confidence of the fit
 };
 
-/// Of the samples of one class; requires that the model knows it.
+/// Of the samples of one class that showed both ends and both sides; requires that the model knows
+/// it.
+/// \param whole_width_sd_m  as in FitConfig
 [[nodiscard]] Evaluation evaluate(const Model& model, objects::ClassId id,
-                                  std::span<const Sample> samples);
+                                  std::span<const Sample> samples, double whole_width_sd_m);
 
 }  // namespace saker::uncertainty

@@ -14,7 +14,9 @@
 ///
 /// Confidence: a perceptron where it predicts held-out recordings better than a constant.
 /// Errors: what is measured of one object from one cell is averaged to one draw; bias, covariance
-/// and what an object's draws share are estimated together (random_effects.h). Elevation and
+/// and what an object's draws share are estimated together (random_effects.h). Cells that showed
+/// one side alone say nothing of the other: the class's width stands there, and by how much a kind
+/// differs from it is no error of all windows. Elevation and
 /// reflectivity are taken in where they raise the likelihood of held-out recordings.
 namespace saker::uncertainty {
 
@@ -22,6 +24,7 @@ struct FitConfig {
   std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
   double whole_length_sd_m = 0.25;
+  double whole_width_sd_m = 0.3;
   int least_objects = 10;
   int least_draws = 5;
   int folds = 5;
@@ -37,6 +40,9 @@ struct FitConfig {
     v.field("whole_length_sd_m", whole_length_sd_m, {0, 100}, "m",
             "a cuboid whose measurement states a worse length did not show both its ends, which "
             "detection gives up to 0.25 m, or 0.35 m and more");
+    v.field("whole_width_sd_m", whole_width_sd_m, {0, 100}, "m",
+            "and one that states a worse width one side alone: where the other is, it does not "
+            "tell; detection gives 0.15 to 0.3 m where it was seen over the roof, or 0.5 m");
     v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
     v.field("least_draws", least_draws, {1, 100000}, "",
             "of objects in an interval, below it counts as not flown");

@@ -51,12 +51,35 @@ View mean_view(const std::vector<const Sample*>& samples) {
   return {range.mean(), angle.mean(), elevation.mean(), reflectivity.mean()};
 }
 
+/// The mean error, as if seen from the left. Place across and width are those of the samples that
+/// showed both sides; without one, the far side's place is left open.
+Draw mean_draw(const std::vector<const Sample*>& samples, const Eigen::VectorXd& parity,
+               double whole_width_sd_m) {
+  Draw draw;
+  draw.error = Eigen::VectorXd::Zero(parity.size());
+  Eigen::VectorXd both_sides = draw.error;
+  double shown = 0;
+  for (const Sample* sample : samples) {
+    draw.error += sample->error / static_cast<double>(samples.size());
+    if (!shows_both_sides(*sample, whole_width_sd_m)) continue;
+    both_sides += sample->error;
+    ++shown;
+  }
+  if (parity.size() < 4) return draw;  // a cylinder has no sides
+  if (shown > 0) {
+    for (const Eigen::Index across : {1, 3}) draw.error[across] = both_sides[across] / shown;
+  } else {
+    draw.open = Eigen::Vector4d(0, -0.5, 0, 1);  // the far side, outward
+  }
+  return draw;
+}
+
 /// One draw for each object and cell, in the order of recordings, objects and cells; whole ones.
 std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals& intervals,
-                               double whole_length_sd_m) {
+                               const FitConfig& config) {
   std::map<std::tuple<std::string, int, int>, std::vector<const Sample*>> grouped;
   for (const Sample& sample : samples) {
-    if (!intervals.contains(sample.view.range) || !is_whole(sample, whole_length_sd_m)) continue;
+    if (!intervals.contains(sample.view.range) || !is_whole(sample, config.whole_length_sd_m)) continue;
     grouped[{sample.recording, sample.object_id, intervals.cell_of(sample.view)}].push_back(
         &sample);
   }
@@ -69,9 +92,10 @@ std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals&
     if (object < 0 || current != last) ++object;
     last = current;
     const View& first = own.front()->view;
-    Draw draw{object, intervals.of(first), intervals.mirrored(first),
-              Eigen::VectorXd::Zero(parity.size())};
-    for (const Sample* sample : own) draw.error += sample->error / static_cast<double>(own.size());
+    Draw draw = mean_draw(own, parity, config.whole_width_sd_m);
+    draw.object = object;
+    draw.interval = intervals.of(first);
+    draw.mirrored = intervals.mirrored(first);
     if (draw.mirrored) draw.error = draw.error.cwiseProduct(parity);
     draws.push_back({std::move(draw), mean_view(own), current.first});
   }
@@ -139,7 +163,7 @@ Eigen::VectorXd bias_slope(std::span<const SeenDraw> seen, std::span<const Draw>
   Eigen::VectorXd squares = products;
   for (std::size_t i = 0; i < draws.size(); ++i) {
     const Eigen::VectorXd rest =
-        draws[i].error - effects.bias[static_cast<std::size_t>(draws[i].interval)];
+        effects.errors[i] - effects.bias[static_cast<std::size_t>(draws[i].interval)];
     const Eigen::VectorXd reach = z[i] * reach_of_slope(parity, seen[i].view.angle);
     products += rest.cwiseProduct(reach);
     squares += reach.cwiseAbs2();
@@ -154,9 +178,9 @@ double log_scale_slope(std::span<const Draw> draws, const RandomEffects& effects
   constexpr int kIterations = 20;
   const auto n = static_cast<double>(effects.common.rows());
   std::vector<double> ratios;  // squared errors over what was expected
-  for (const Draw& draw : draws) {
-    const auto interval = static_cast<std::size_t>(draw.interval);
-    const Eigen::VectorXd rest = draw.error - effects.bias[interval];
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    const auto interval = static_cast<std::size_t>(draws[i].interval);
+    const Eigen::VectorXd rest = effects.errors[i] - effects.bias[interval];
     const Eigen::MatrixXd covariance = effects.covariance[interval] + effects.common;
     const double squared = rest.dot(covariance.llt().solve(rest));
     ratios.push_back(std::min(squared, most_sd * most_sd) / n);
@@ -266,7 +290,7 @@ double log_likelihood(const SeenDraw& seen, const GeometricModel& model) {
   return -0.5 * (n * std::log(2 * std::numbers::pi) + rest.dot(factor.solve(rest))) - half_log_det;
 }
 
-/// The mean log-likelihood of each recording's draws, from fits without it.
+/// The mean log-likelihood of each recording's draws that leave nothing open, from fits without it.
 HeldOut scores(const std::vector<SeenDraw>& draws, const Intervals& intervals,
                const std::vector<Covariate>& covariates, const FitConfig& config) {
   std::vector<std::string> recordings;
@@ -280,6 +304,7 @@ HeldOut scores(const std::vector<SeenDraw>& draws, const Intervals& intervals,
     const GeometricModel model(fit_parts(seen, intervals, covariates, config));
     std::map<std::string, std::vector<double>> likelihoods;
     for (const SeenDraw& draw : unseen) {
+      if (draw.draw.open.size() > 0) continue;
       likelihoods[draw.recording].push_back(log_likelihood(draw, model));
     }
     HeldOut means;
@@ -292,7 +317,7 @@ HeldOut scores(const std::vector<SeenDraw>& draws, const Intervals& intervals,
 
 GeometricModel fit_geometric(std::span<const Sample> samples, const Intervals& intervals,
                              const FitConfig& config, std::vector<Trial>& trials) {
-  const std::vector<SeenDraw> draws = draws_of(samples, intervals, config.whole_length_sd_m);
+  const std::vector<SeenDraw> draws = draws_of(samples, intervals, config);
   if (draws.empty()) {
     throw Error(
         fmt::format("samples: none that is whole from {} ... {} m, the intervals of the fit",

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace saker::uncertainty {
@@ -28,6 +27,7 @@ class Estimation {
       : draws_(draws), parity_(parity), config_(config), weights_(draws.size(), 1.0) {
     int objects = 0;
     for (const Draw& draw : draws) objects = std::max(objects, draw.object + 1);
+    for (const Draw& draw : draws) errors_.push_back(draw.error);
     additions_.assign(at(objects), {zero_vector(), zero_matrix()});
     counts_.assign(at(intervals), 0);
     for (const Draw& draw : draws) ++counts_[at(draw.interval)];
@@ -37,6 +37,7 @@ class Estimation {
   /// \return how much the common covariance changed, relative to itself
   double iterate() {
     const Matrix before = common_;
+    fill_in();
     weigh();
     estimate_additions();
     estimate_biases();
@@ -45,10 +46,12 @@ class Estimation {
     return (common_ - before).norm() / before.norm();
   }
 
-  [[nodiscard]] RandomEffects result() const {
+  [[nodiscard]] RandomEffects result() {
+    fill_in();
     RandomEffects result;
     result.draws = counts_;
     result.common = common_;
+    result.errors = errors_;
     for (std::size_t i = 0; i < bias_.size(); ++i) {
       result.bias.emplace_back(bias_[i]);
       const double known = counts_[i] + config_.bias_prior_draws;
@@ -75,18 +78,50 @@ class Estimation {
     return draw.mirrored ? mirrored(own) : own;
   }
 
-  [[nodiscard]] Vector rest_of(const Draw& draw) const {
-    return Vector(draw.error) - bias_[at(draw.interval)];
+  [[nodiscard]] Vector rest_of(std::size_t i) const {
+    return Vector(errors_[i]) - bias_[at(draws_[i].interval)];
   }
 
-  /// All intervals alike, half of the variance common.
+  /// What a draw leaves open: as what it says lets expect it by the present estimates.
+  void fill_in() {
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const Draw& draw = draws_[i];
+      if (draw.open.size() == 0) continue;
+      const Vector expected =
+          bias_[at(draw.interval)] + folded(draw, additions_[at(draw.object)].mean);
+      const Vector rest = draw.error - expected;
+      errors_[i] = expected + said(draw, covariance_[at(draw.interval)].inverse()) * rest;
+    }
+  }
+
+  /// Of an error with that information: onto what a draw says of it, the open rest by regression.
+  [[nodiscard]] Matrix said(const Draw& draw, const Matrix& information) const {
+    Matrix identity = Matrix::Identity(parity_.size(), parity_.size());
+    if (draw.open.size() == 0) return identity;
+    const Vector open = draw.open;
+    return identity - open * (information * open).transpose() / open.dot(information * open);
+  }
+
+  /// Variance of what it leaves open.
+  [[nodiscard]] Matrix left_open(const Draw& draw, const Matrix& information) const {
+    if (draw.open.size() == 0) return zero_matrix();
+    const Vector open = draw.open;
+    return open * open.transpose() / open.dot(information * open);
+  }
+
+  /// All intervals alike, half of the variance common; by the draws that leave nothing open.
   void start(std::size_t intervals) {
-    const double share = 1 / static_cast<double>(draws_.size());
-    Vector mean = zero_vector();
-    for (const Draw& draw : draws_) mean += share * draw.error;
-    Matrix covariance = least();
+    std::vector<Vector> errors;
     for (const Draw& draw : draws_) {
-      const Vector rest = draw.error - mean;
+      if (draw.open.size() == 0) errors.emplace_back(draw.error);
+    }
+    if (errors.empty()) errors.assign(errors_.begin(), errors_.end());
+    const double share = 1 / static_cast<double>(errors.size());
+    Vector mean = zero_vector();
+    for (const Vector& error : errors) mean += share * error;
+    Matrix covariance = least();
+    for (const Vector& error : errors) {
+      const Vector rest = error - mean;
       covariance += share * rest * rest.transpose();
     }
     class_bias_ = mean;
@@ -120,25 +155,24 @@ class Estimation {
       information.emplace_back((covariance + common_).inverse());
     }
     for (std::size_t i = 0; i < draws_.size(); ++i) {
-      const Vector rest = rest_of(draws_[i]);
-      const double squared = rest.dot(information[at(draws_[i].interval)] * rest);
+      const Matrix& known = information[at(draws_[i].interval)];
+      const Vector rest = said(draws_[i], known) * rest_of(i);
+      const double squared = rest.dot(known * rest);
       weights_[i] = std::min(1.0, config_.most_sd * config_.most_sd / squared);
     }
   }
 
   void estimate_additions() {
-    std::vector<std::array<Matrix, 2>> known;  // from the left, from the right
-    for (const Matrix& covariance : covariance_) {
-      const Matrix information = covariance.inverse();
-      known.push_back({information, mirrored(information)});
-    }
+    std::vector<Matrix> known;
+    for (const Matrix& covariance : covariance_) known.emplace_back(covariance.inverse());
     std::vector<Matrix> information(additions_.size(), common_.inverse());
     std::vector<Vector> weighted(additions_.size(), zero_vector());
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
-      const Matrix own = weights_[i] * known[at(draw.interval)][draw.mirrored ? 1 : 0];
+      const Matrix& all = known[at(draw.interval)];
+      const Matrix own = folded(draw, Matrix(weights_[i] * all * said(draw, all)));
       information[at(draw.object)] += own;
-      weighted[at(draw.object)] += own * folded(draw, rest_of(draw));
+      weighted[at(draw.object)] += own * folded(draw, rest_of(i));
     }
     for (std::size_t i = 0; i < additions_.size(); ++i) {
       additions_[i].covariance = information[i].inverse();
@@ -149,8 +183,9 @@ class Estimation {
   void estimate_biases() {
     std::vector<std::vector<Vector>> errors(bias_.size());
     std::vector<Vector> all;
-    for (const Draw& draw : draws_) {
-      all.emplace_back(draw.error - folded(draw, additions_[at(draw.object)].mean));
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+      const Draw& draw = draws_[i];
+      all.emplace_back(errors_[i] - folded(draw, additions_[at(draw.object)].mean));
       errors[at(draw.interval)].push_back(all.back());
     }
     class_bias_ = located(all, class_bias_);
@@ -166,14 +201,17 @@ class Estimation {
   }
 
   void estimate_covariances() {
-    std::vector<Matrix> sums(bias_.size(), zero_matrix());
+    std::vector<Matrix> sums(bias_.size(), zero_matrix()), information;
+    for (const Matrix& covariance : covariance_) information.emplace_back(covariance.inverse());
     Matrix total = zero_matrix();
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
       const Addition& addition = additions_[at(draw.object)];
-      const Vector rest = rest_of(draw) - folded(draw, addition.mean);
-      const Matrix square =
-          weights_[i] * (rest * rest.transpose() + folded(draw, addition.covariance));
+      const Vector rest = rest_of(i) - folded(draw, addition.mean);
+      const Matrix onto = said(draw, information[at(draw.interval)]);
+      const Matrix uncertain = onto * folded(draw, addition.covariance) * onto.transpose() +
+                               left_open(draw, information[at(draw.interval)]);
+      const Matrix square = weights_[i] * (rest * rest.transpose() + uncertain);
       sums[at(draw.interval)] += square;
       total += square;
     }
@@ -199,7 +237,8 @@ class Estimation {
   std::span<const Draw> draws_;
   Vector parity_;
   RandomEffectsConfig config_;
-  std::vector<double> weights_;  // one a draw
+  std::vector<double> weights_;          // one a draw
+  std::vector<Eigen::VectorXd> errors_;  // the same, filled in
   std::vector<Addition> additions_;
   std::vector<int> counts_;  // draws, one an interval
   Vector class_bias_;

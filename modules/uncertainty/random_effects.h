@@ -42,6 +42,7 @@ struct Draw {
   int interval = 0;       ///< of range and |angle|
   bool mirrored = false;  ///< seen from the right
   Eigen::VectorXd error;  ///< as if seen from the left
+  Eigen::VectorXd open = {};  ///< along which it says nothing of the error; empty: it says all
 };
 
 /// error = bias of the interval + what the object adds to all its measurements + rest.
@@ -50,11 +51,14 @@ struct RandomEffects {
   std::vector<Eigen::MatrixXd> covariance;  ///< of the rest, for a new object: one an interval
   std::vector<int> draws;                   ///< one an interval
   Eigen::MatrixXd common;                   ///< of what an object adds, in its own frame
+  std::vector<Eigen::VectorXd> errors;      ///< of the draws, what they left open filled in
 };
 
 /// The variances of a linear model with random effects by expectation and maximisation (Laird and
 /// Ware, Biometrics 1982), with shrinkage towards the class and bounded influence of outliers.
-/// The covariance of an interval contains what its bias is uncertain by.
+/// The covariance of an interval contains what its bias is uncertain by. What a draw leaves open is
+/// missing data (Little and Rubin, Statistical Analysis with Missing Data, 2002): filled in by the
+/// rest of its error, with the variance that this has.
 /// \param parity  of the error's entries under the mirror between left and right
 [[nodiscard]] RandomEffects random_effects(std::span<const Draw> draws, int intervals,
                                            const Eigen::VectorXd& parity,

@@ -15,8 +15,8 @@ namespace {
 
 const std::string kHeader =
     "recording,object_id,kind,class,time_s,range,angle,elevation,reflectivity,points,confidence,"
-    "error_x,error_y,error_length,error_width,length_sd";
-constexpr std::size_t kFirstError = 11, kLengthSd = 15;
+    "error_x,error_y,error_length,error_width,length_sd,width_sd";
+constexpr std::size_t kFirstError = 11, kLengthSd = 15, kWidthSd = 16;
 
 Eigen::Vector2d in_frame(double heading, const Eigen::Vector2d& v) {
   return Eigen::Rotation2Dd(-heading) * v;
@@ -62,7 +62,7 @@ std::string line_of(const Sample& sample, const objects::ClassTable& table) {
   for (int i = 0; i < 4; ++i) {
     line += i < sample.error.size() ? fmt::format(",{}", sample.error[i]) : ",";
   }
-  return line + fmt::format(",{}\n", sample.length_sd);
+  return line + fmt::format(",{},{}\n", sample.length_sd, sample.width_sd);
 }
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -103,6 +103,7 @@ class Line {
       sample.error[i] = within(kFirstError + static_cast<std::size_t>(i), -1e3, 1e3);
     }
     sample.length_sd = number<double>(kLengthSd);
+    sample.width_sd = number<double>(kWidthSd);
     return sample;
   }
 
@@ -154,7 +155,10 @@ Sample sample_of(const objects::Measurement& measurement, const objects::Model& 
   sample.confidence = measurement.class_probability[measurement.class_id];
   if (const auto* cuboid = std::get_if<objects::Cuboid>(&truth)) {
     sample.error = error_of(std::get<objects::Cuboid>(measured), *cuboid);
-    if (measurement.covariance.size() > 0) sample.length_sd = objects::length_sd(measurement);
+    if (measurement.covariance.size() > 0) {
+      sample.length_sd = objects::length_sd(measurement);
+      sample.width_sd = objects::width_sd(measurement);
+    }
   } else {
     sample.error =
         error_of(std::get<objects::Cylinder>(measured), std::get<objects::Cylinder>(truth), eye);
@@ -164,6 +168,10 @@ Sample sample_of(const objects::Measurement& measurement, const objects::Model& 
 
 bool is_whole(const Sample& sample, double most_length_sd_m) {
   return !(sample.length_sd > most_length_sd_m);
+}
+
+bool shows_both_sides(const Sample& sample, double most_width_sd_m) {
+  return !(sample.width_sd > most_width_sd_m);
 }
 
 std::vector<Sample> read_samples(const std::filesystem::path& file,

@@ -25,6 +25,7 @@ struct Sample {
   /// y], x along the line of sight away from the lidar, y to its left, m.
   Eigen::VectorXd error;
   double length_sd = NAN;  ///< m, that a cuboid's measurement states of its longer edge
+  double width_sd = NAN;   ///< m, of its shorter one
 };
 
 /// The sample of a measurement of a true object; both models of one shape, in one frame with z up.
@@ -37,6 +38,9 @@ struct Sample {
 /// Whether the measurement showed the object from end to end: not of a cuboid that states more than
 /// `most_length_sd_m` of its length. Unknown counts as shown.
 [[nodiscard]] bool is_whole(const Sample& sample, double most_length_sd_m);
+
+/// Whether it showed both of its sides: not of a cuboid that states more of its width.
+[[nodiscard]] bool shows_both_sides(const Sample& sample, double most_width_sd_m);
 
 /// CSV with a header line; one line a sample, angles in radians, unknown numbers as nan. Throws
 /// Error that names file, line and what was expected.

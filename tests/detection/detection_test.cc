@@ -148,7 +148,7 @@ double length_sd_with_bush(int others, float probability) {
                 probability);
     }
   };
-  add_leaves(100, 1);
+  add_leaves(30, 1);
   add_leaves(others, 0);
   Detection detection({}, {});
   const std::vector<LabelledScan> window = {scene.scan(0, sensor_at(2))};
@@ -159,12 +159,12 @@ double length_sd_with_bush(int others, float probability) {
 
 TEST(Detection, EndAmidPointsOfNoObjectIsDoubtful) {
   EXPECT_LT(length_sd_with_bush(0, 0.95f), 0.3);
-  EXPECT_GT(length_sd_with_bush(1000, 0.95f), AmidOthersConfig().sd_m);
+  EXPECT_GT(length_sd_with_bush(300, 0.95f), AmidOthersConfig().sd_m);
 }
 
 TEST(Detection, EndOfPointsThatMayBeOfNoObjectIsDoubtfulAmidFewOfThem) {
-  EXPECT_LT(length_sd_with_bush(150, 0.95f), 0.3);
-  EXPECT_GT(length_sd_with_bush(150, 0.6f), AmidOthersConfig().sd_m);
+  EXPECT_LT(length_sd_with_bush(60, 0.95f), 0.3);
+  EXPECT_GT(length_sd_with_bush(60, 0.6f), AmidOthersConfig().sd_m);
 }
 
 TEST(Detection, CylinderWithLeavesAboveItIsRatherATrunkAndABareOneAPole) {

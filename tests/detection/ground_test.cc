@@ -44,17 +44,17 @@ TEST(Ground, IsNotLiftedByABonnetCalledGround) {
   EXPECT_NEAR(ground.at({4.7, 2.7, 0})->height_of({4.7, 2.7, 0}), 0, 0.05);
 }
 
-/// A vehicle with its front to +x, of whose surroundings the ground behind it alone is seen, and
-/// whose bonnet was called ground. Height of the ground under it.
+/// Height of the ground under a vehicle with its front to +x, of whose surroundings the ground behind
+/// it alone is seen, and of whose bonnet the half beside the side that is seen was called ground.
 double height_under_bonnet(bool vehicle_seen) {
   core::Rng rng(4);
   std::vector<Eigen::Vector3f> points;
   std::vector<ClassPoint> vehicle;
   for (int i = 0; i < 400; ++i) {
-    const auto y = static_cast<float>(rng.uniform(-0.9, 0.9));
+    const auto y = static_cast<float>(rng.uniform(-0.9, 0));
     points.emplace_back(static_cast<float>(rng.uniform(-5, -2.5)), y, 0);
     points.emplace_back(static_cast<float>(rng.uniform(1, 2.2)), y, 1);
-    const auto x = static_cast<float>(rng.uniform(-2.2, 2.2));
+    const auto x = static_cast<float>(rng.uniform(-2.2, 2.2));  // of its side
     if (vehicle_seen) vehicle.push_back({{x, -0.9f, static_cast<float>(rng.uniform(0.2, 1))}});
   }
   Ground ground({});

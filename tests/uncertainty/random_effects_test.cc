@@ -82,5 +82,21 @@ TEST(RandomEffectsTest, AnIntervalWithFewDrawsIsDrawnTowardsTheClass) {
   EXPECT_LT(sd, 0.5);
 }
 
+TEST(RandomEffectsTest, WhatDrawsLeaveOpenMovesNothing) {
+  std::vector<Draw> draws = made(2000, 6);
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    if (i % 8 >= 4) continue;  // of every second object
+    draws[i].open = Eigen::Vector2d(0, 1);
+    draws[i].error[1] += 50;
+  }
+  const RandomEffects effects = random_effects(draws, 2, kParity, {});
+  EXPECT_NEAR(effects.bias[0][1], 0.1, 0.03);
+  EXPECT_NEAR(effects.bias[1][0], -0.2, 0.03);
+  EXPECT_NEAR(std::sqrt(effects.common(0, 0)), 0.3, 0.02);
+  EXPECT_NEAR(std::sqrt(effects.common(1, 1)), 0.2, 0.03);
+  EXPECT_NEAR(std::sqrt(effects.covariance[0](1, 1)), 0.1, 0.02);
+  EXPECT_NEAR(effects.errors[0][1], 0.1, 1) << "filled in";
+}
+
 }  // namespace
 }  // namespace saker::uncertainty

@@ -115,12 +115,14 @@ TEST(SampleTest, AVehicleWhoseEndsWereNotSeenIsNotWhole) {
   EXPECT_TRUE(is_whole(sample, 0.25)) << "nobody said";
 }
 
-TEST(SampleTest, TheStatedLengthIsThatOfTheLongerEdge) {
+TEST(SampleTest, TheStatedLengthIsThatOfTheLongerEdgeTheWidthThatOfTheOther) {
   objects::Measurement across = measurement_of(kVehicle);
   across.model = cuboid_of({8, 0, 0}, 0, 1.8, 4.4);
   across.covariance = Matrix9d::Identity();
   across.covariance(7, 7) = 0.09;
-  EXPECT_DOUBLE_EQ(sample_of(across, across.model, across.model, {0, 0, 2}).length_sd, 0.3);
+  const Sample sample = sample_of(across, across.model, across.model, {0, 0, 2});
+  EXPECT_DOUBLE_EQ(sample.length_sd, 0.3);
+  EXPECT_DOUBLE_EQ(sample.width_sd, 1);
 }
 
 TEST_F(SampleFileTest, WhatIsWrittenIsReadBackToTheLastBit) {
@@ -150,7 +152,7 @@ TEST_F(SampleFileTest, EachBrokenFileIsRefusedWithFileAndLine) {
   expect_refusal(with(",vehicle,", ",ground,"), ":2: class \"ground\", expected");
   expect_refusal(with(",7.25,", ",far,"), ":2: range \"far\", expected a number");
   expect_refusal(with(",7.25,", ",nan,"), ":2: range \"nan\"");
-  expect_refusal(with(",7.25,", ","), ":2: 15 fields, expected 16");
+  expect_refusal(with(",7.25,", ","), ":2: 16 fields, expected 17");
   expect_refusal(with(",0.30000000000000004,", ",1.5,"), ":2: confidence \"1.5\"");
 }
 

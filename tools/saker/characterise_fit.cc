@@ -117,7 +117,8 @@ int fit(const FitOptions& options, const CommonOptions& common) {
   for (const uncertainty::ClassModel& own : fitted) {
     print_fit(own, table[own.id].name);
     print_regions(model, own.id);
-    if (!unseen.empty()) print_test(uncertainty::evaluate(model, own.id, unseen));
+    if (unseen.empty()) continue;
+    print_test(uncertainty::evaluate(model, own.id, unseen, config.fit.whole_width_sd_m));
   }
   model.save(file, table);
   if (options.pictures.empty()) return 0;
