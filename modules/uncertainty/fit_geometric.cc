@@ -79,7 +79,8 @@ std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals&
                                const FitConfig& config) {
   std::map<std::tuple<std::string, int, int>, std::vector<const Sample*>> grouped;
   for (const Sample& sample : samples) {
-    if (!intervals.contains(sample.view.range) || !is_whole(sample, config.whole_length_sd_m)) continue;
+    if (!intervals.contains(sample.view.range) || !is_whole(sample, config.whole_length_sd_m))
+      continue;
     grouped[{sample.recording, sample.object_id, intervals.cell_of(sample.view)}].push_back(
         &sample);
   }

@@ -38,10 +38,10 @@ struct RandomEffectsConfig {
 
 /// The mean error of one object as measured from one cell: one draw.
 struct Draw {
-  int object = 0;         ///< from 0 without gaps
-  int interval = 0;       ///< of range and |angle|
-  bool mirrored = false;  ///< seen from the right
-  Eigen::VectorXd error;  ///< as if seen from the left
+  int object = 0;             ///< from 0 without gaps
+  int interval = 0;           ///< of range and |angle|
+  bool mirrored = false;      ///< seen from the right
+  Eigen::VectorXd error;      ///< as if seen from the left
   Eigen::VectorXd open = {};  ///< along which it says nothing of the error; empty: it says all
 };
 

@@ -44,8 +44,9 @@ TEST(Ground, IsNotLiftedByABonnetCalledGround) {
   EXPECT_NEAR(ground.at({4.7, 2.7, 0})->height_of({4.7, 2.7, 0}), 0, 0.05);
 }
 
-/// Height of the ground under a vehicle with its front to +x, of whose surroundings the ground behind
-/// it alone is seen, and of whose bonnet the half beside the side that is seen was called ground.
+/// Height of the ground under a vehicle with its front to +x, of whose surroundings the ground
+/// behind it alone is seen, and of whose bonnet the half beside the side that is seen was called
+/// ground.
 double height_under_bonnet(bool vehicle_seen) {
   core::Rng rng(4);
   std::vector<Eigen::Vector3f> points;

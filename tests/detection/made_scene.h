@@ -32,7 +32,7 @@ struct SceneBuilder {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::uint8_t> classes;
   std::vector<float> probability;  ///< of the classes
-  std::vector<MadeBox> solids;  ///< the ground behind them is not seen
+  std::vector<MadeBox> solids;     ///< the ground behind them is not seen
 
   void add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id,
            float class_probability = 0.9f);

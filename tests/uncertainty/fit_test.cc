@@ -100,8 +100,8 @@ TEST(FitTest, ManyWindowsFromOneCellAreOneDraw) {
 TEST(FitTest, IsHonestAboutSamplesItHasNotSeen) {
   const MadeLaw law;
   const Model model(fit(made_samples(law, kEdges, 150, 4), kTable, small_config(), 1));
-  const Evaluation unseen = evaluate(model, kVehicle, made_samples(law, kEdges, 300, 5),
-                                     FitConfig().whole_width_sd_m);
+  const Evaluation unseen =
+      evaluate(model, kVehicle, made_samples(law, kEdges, 300, 5), FitConfig().whole_width_sd_m);
   EXPECT_EQ(unseen.objects, 300);
   EXPECT_GT(unseen.nees, 0.9);
   EXPECT_LT(unseen.nees, 1.1);
