@@ -48,7 +48,7 @@ struct PamsConfig {
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
     config.faces.hidden_m = 0.06;
-    config.faces.hidden_side_m = 0.2;  // as slam.noise.fitted_hidden_side_m
+    config.faces.hidden_side_m = 0.15;  // as slam.noise.fitted_hidden_side_m
     config.enough_entropy = -11;
     config.most_size_sd_m = 0.1;
     config.common_counts = true;
@@ -102,7 +102,8 @@ struct PamsConfig {
     v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
             "what a second of flight must bring beside it: the more, the shorter the mission");
     v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
-            "the same where nothing brings that much and the size is not known to most_size_sd_m");
+            "the same for a target of the prior map where nothing brings that much and the size is "
+            "not known to most_size_sd_m");
     v.field("at_once", at_once, {1, 8}, "",
             "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
     v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");

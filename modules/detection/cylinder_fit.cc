@@ -72,8 +72,7 @@ struct Normal {
   Matrix5d H = Matrix5d::Zero();
   Vector5d g = Vector5d::Zero();
   double weight = 0;
-  double squared = 0;      ///< of the residuals, weighted
-  double all_squared = 0;  ///< the same, all points alike
+  double squared = 0;
 };
 
 Normal linearise(const Points& points, const Vector5d& state, const CylinderFitConfig& config) {
@@ -91,7 +90,6 @@ Normal linearise(const Points& points, const Vector5d& state, const CylinderFitC
     normal.g += weight * residual * row;
     normal.weight += weight;
     normal.squared += weight * residual * residual;
-    normal.all_squared += residual * residual;
   }
   return normal;
 }
@@ -138,7 +136,6 @@ std::optional<CylinderFit> fit_cylinder(const Points& points, const Eigen::Vecto
   fit.slope = state.segment<2>(2);
   fit.radius = state[4];
   fit.residual = std::sqrt(normal.squared / normal.weight);
-  fit.scatter = std::sqrt(normal.all_squared / static_cast<double>(points.size()));
   fit.covariance = normal.H.inverse();
   return fit;
 }

@@ -47,7 +47,6 @@ struct CylinderFit {
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< axis ∝ (slope, 1)
   double radius = 0;
   double residual = 0;  ///< root mean square distance of the points to the surface, weighted, m
-  double scatter = 0;   ///< the same, all points alike
   Eigen::Matrix<double, 5, 5> covariance;  ///< [foot, slope, radius]
 };
 

@@ -15,8 +15,9 @@
 /// Reads ground-labelled points in a levelled frame (z roughly up); makes a plane a cell. Each
 /// plane is fitted to the mean points of small squares in and around its cell by reweighted least
 /// squares with a Cauchy weight whose scale shrinks, so that bonnets and kerbs that were called
-/// ground do not bend it; a plane that stands off its neighbours is refused. Cost: linear in
-/// points, about 5 ms for 200,000.
+/// ground do not bend it; what lies over a vehicle's points is left out beforehand, for where
+/// little else was seen a bonnet would be the ground. A plane that stands off its neighbours is
+/// refused. Cost: linear in points, about 5 ms for 200,000.
 namespace saker::detection {
 
 struct GroundConfig {

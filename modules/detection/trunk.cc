@@ -28,8 +28,6 @@ Matrix6d covariance_of(const CylinderFit& fit, const Eigen::Vector3d& axis,
   P.topLeftCorner<3, 3>() += std::pow(config.ground_m * length, 2) * axis * axis.transpose();
   P(0, 0) += config.pose_m * config.pose_m;
   P(1, 1) += config.pose_m * config.pose_m;
-  // What scatters about the surface, as leaves do about a stem, is no cylinder of that radius.
-  P(5, 5) += std::max(0.0, std::pow(fit.scatter, 2) - std::pow(config.fit.noise_m, 2));
   return P;
 }
 

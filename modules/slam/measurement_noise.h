@@ -20,8 +20,8 @@ struct MeasurementNoiseConfig {
   double shared_width = 1;
   double fitted_length_sd_m = 0.17;
   double fitted_length_power = 1.7;
-  double fitted_width_sd_m = 0.17;
-  double fitted_hidden_side_m = 0.2;
+  double fitted_width_sd_m = 0.3;
+  double fitted_hidden_side_m = 0.15;
   double shared_root = 4;
   double shared_radius = 80;
   double shared_radius_cells = 10;
@@ -63,9 +63,10 @@ struct MeasurementNoiseConfig {
             "vehicle: their errors grew from 0.04 m at 0.13 m stated to 0.19 m at 0.27 m");
     v.field("fitted_width_sd_m", fitted_width_sd_m, {0.01, 10}, "m",
             "standard deviation that windows state of a vehicle's width where they show both of "
-            "its sides: what they state beyond that is where the hidden side is");
+            "its sides, as fit.whole_width_sd_m: what they state beyond that is where the hidden "
+            "side is");
     v.field("fitted_hidden_side_m", fitted_hidden_side_m, {0, 10}, "m",
-            "but no more than this: the class's widths differ by 0.1 m, and four view cells from "
+            "but no more than this: the class's widths differ by 0.1 m, and a few view cells from "
             "one side say the same of it");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "active/pams.h"
 #include "made_flight.h"
@@ -14,15 +15,18 @@ using namespace made;
 
 /// A vehicle whose place and width the map knows well, and its length to `length_sd`.
 struct KnownButForItsLength : Flight {
-  explicit KnownButForItsLength(const PamsConfig& pams, const InGeofence& fence = everywhere)
-      : Flight(policy_for(pams, fence)) {}
+  explicit KnownButForItsLength(const PamsConfig& pams, const InGeofence& fence = everywhere,
+                                bool discovered = false)
+      : Flight(policy_for(pams, fence, discovered)) {}
 
-  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams, const InGeofence& fence) {
+  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams, const InGeofence& fence,
+                                            bool discovered) {
     const ActiveConfig config;
-    const objects::ClassTable table;
-    return std::make_unique<PamsPolicy>(config, pams,
-                                        TargetList(config.targets, table, map_of({car(20, 5)})),
-                                        fence, oblique_model(0), motion::LimitsConfig{});
+    const objects::ObjectMap map = map_of({car(20, 5)});
+    TargetList targets(config.targets, {}, discovered ? objects::ObjectMap() : map);
+    if (discovered) targets.add(map.objects[0]);
+    return std::make_unique<PamsPolicy>(config, pams, std::move(targets), fence, oblique_model(0),
+                                        motion::LimitsConfig{});
   }
 
   void know_length_to(double length_sd) {
@@ -94,6 +98,20 @@ TEST(PamsSize, WhereTheRegionsCentroidsCannotBeReachedTheLatticeShowsTheLength) 
   };
   EXPECT_TRUE(goals(false, elsewhere).empty());
   EXPECT_FALSE(goals(true, elsewhere).empty());
+}
+
+TEST(PamsSize, ADiscoveredTargetIsFlownToAtTheFullPriceAlone) {
+  const auto goals = [](bool discovered) {
+    PamsConfig config = easily_enough();
+    config.price_per_s = 10;  // nothing brings that much
+    KnownButForItsLength flight(config, everywhere, discovered);
+    flight.know_length_to(0.5);
+    flight.fly(600);
+    EXPECT_EQ(flight.target(0).status, TargetStatus::done);
+    return flight.goals.size();
+  };
+  EXPECT_GT(goals(false), 0U);
+  EXPECT_EQ(goals(true), 0U);
 }
 
 TEST(PamsSize, PolicyPaperAsksForTheDeterminantAlone) {

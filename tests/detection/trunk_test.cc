@@ -45,18 +45,6 @@ TEST(Trunk, SaysHowWellItKnowsItsFootAndRadius) {
   EXPECT_LT(radius, 2.5);
 }
 
-TEST(Trunk, AmidLeavesHasARadiusThatIsLessWellKnown) {
-  core::Rng rng(9);
-  const auto stem = visible_cylinder({8, 3, 0}, {0, 0, 1}, 0.1, 3, kSensor, 300, 0.02, rng);
-  auto leafy = stem;
-  for (int i = 0; i < 300; ++i) {
-    leafy.emplace_back(8 + rng.normal(0, 0.15), 3 + rng.normal(0, 0.15), rng.uniform(0, 3));
-  }
-  const auto sd = [](const TrunkFit& fit) { return std::sqrt(fit.covariance(5, 5)); };
-  EXPECT_LT(sd(fit_trunk(stem, kSensor, {})), 0.02);
-  EXPECT_GT(sd(fit_trunk(leafy, kSensor, {})), 0.05);
-}
-
 TEST(Trunk, IsRefusedWhereItCannotBeOne) {
   core::Rng rng(3);
   const auto status = [&](const std::vector<Eigen::Vector3d>& points) {
