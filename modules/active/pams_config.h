@@ -102,8 +102,7 @@ struct PamsConfig {
     v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
             "what a second of flight must bring beside it: the more, the shorter the mission");
     v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
-            "the same for a target of the prior map where nothing brings that much and the size is "
-            "not known to most_size_sd_m");
+            "the same for a prior target where nothing brings so much and a size is not known");
     v.field("at_once", at_once, {1, 8}, "",
             "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
     v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");
