@@ -86,8 +86,8 @@ objects::Cuboid end_of(const Footprint& footprint, int end, const VehicleConfig&
   return upright(footprint.direction, {low, high}, {config.lowest_m, config.highest_m});
 }
 
-/// Added to the sd of an end where most of the points about it are of no object, those aside that
-/// may be. Not to a side's: sides err no more there.
+/// Added to the sd of an end where most of the points about it are of no object; own ones that may
+/// be of none do not count. Not to a side's: sides err no more there.
 double doubt_amid_others(const std::vector<BodyPoint>& points, const objects::Cuboid& end,
                          const Sight& sight, const AmidOthersConfig& config) {
   const SE3 T_end_local = end.pose.inverse();

@@ -78,28 +78,33 @@ class Estimation {
     return draw.mirrored ? mirrored(own) : own;
   }
 
+  [[nodiscard]] std::vector<Matrix> inverse_covariances() const {
+    std::vector<Matrix> inverse;
+    for (const Matrix& covariance : covariance_) inverse.emplace_back(covariance.inverse());
+    return inverse;
+  }
+
   [[nodiscard]] Vector rest_of(std::size_t i) const {
     return Vector(errors_[i]) - bias_[at(draws_[i].interval)];
   }
 
   /// What a draw leaves open: as what it says lets expect it by the present estimates.
   void fill_in() {
+    const std::vector<Matrix> known = inverse_covariances();
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
       if (draw.open.size() == 0) continue;
       const Vector expected =
           bias_[at(draw.interval)] + folded(draw, additions_[at(draw.object)].mean);
       const Vector rest = draw.error - expected;
-      errors_[i] = expected + said(draw, covariance_[at(draw.interval)].inverse()) * rest;
+      errors_[i] = expected + said(draw, known[at(draw.interval)]) * rest;
     }
   }
 
   /// Of an error with that information: onto what a draw says of it, the open rest by regression.
   [[nodiscard]] Matrix said(const Draw& draw, const Matrix& information) const {
-    Matrix identity = Matrix::Identity(parity_.size(), parity_.size());
-    if (draw.open.size() == 0) return identity;
-    const Vector open = draw.open;
-    return identity - open * (information * open).transpose() / open.dot(information * open);
+    return Matrix::Identity(parity_.size(), parity_.size()) -
+           left_open(draw, information) * information;
   }
 
   /// Variance of what it leaves open.
@@ -163,8 +168,7 @@ class Estimation {
   }
 
   void estimate_additions() {
-    std::vector<Matrix> known;
-    for (const Matrix& covariance : covariance_) known.emplace_back(covariance.inverse());
+    const std::vector<Matrix> known = inverse_covariances();
     std::vector<Matrix> information(additions_.size(), common_.inverse());
     std::vector<Vector> weighted(additions_.size(), zero_vector());
     for (std::size_t i = 0; i < draws_.size(); ++i) {
@@ -201,16 +205,16 @@ class Estimation {
   }
 
   void estimate_covariances() {
-    std::vector<Matrix> sums(bias_.size(), zero_matrix()), information;
-    for (const Matrix& covariance : covariance_) information.emplace_back(covariance.inverse());
+    std::vector<Matrix> sums(bias_.size(), zero_matrix());
+    const std::vector<Matrix> inverse = inverse_covariances();
     Matrix total = zero_matrix();
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
       const Addition& addition = additions_[at(draw.object)];
       const Vector rest = rest_of(i) - folded(draw, addition.mean);
-      const Matrix onto = said(draw, information[at(draw.interval)]);
+      const Matrix onto = said(draw, inverse[at(draw.interval)]);
       const Matrix uncertain = onto * folded(draw, addition.covariance) * onto.transpose() +
-                               left_open(draw, information[at(draw.interval)]);
+                               left_open(draw, inverse[at(draw.interval)]);
       const Matrix square = weights_[i] * (rest * rest.transpose() + uncertain);
       sums[at(draw.interval)] += square;
       total += square;
