@@ -103,13 +103,13 @@ struct AmidOthersConfig {
             "inward from the end, and outward beyond.near_m: where they are counted");
     v.field("sure_probability", sure_probability, {0, 1}, "",
             "of its class, from which on a point counts as the vehicle's: one in nine is below, of "
-            "leaves that were taken for a vehicle all are");
+            "leaves taken for a vehicle all that were looked at");
     v.field("share", share, {0, 1}, "",
             "of these points and those of no object together, above which the end is doubtful; "
             "below 0.85 right ends of a real drive are, too");
     v.field("sd_m", sd_m, {0, 10}, "m",
-            "more standard deviation of such an end: in simulation they err by 0.71, others by "
-            "0.06");
+            "more standard deviation of such an end: in simulation, above 0.7 of all points, they "
+            "erred by 0.71, others by 0.06");
   }
 };
 
