@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "made_model.h"
 #include "objects/view_cell.h"
+#include "uncertainty/fit.h"
 
 namespace saker::autonomy {
 namespace {
@@ -271,6 +272,12 @@ TEST(UncertaintyFor, ThePapersEstimatorSeesLengthsBestFromObliquelyInFrontWorstF
   };
   EXPECT_LT(2 * length_sd(45), length_sd(165));
   EXPECT_LT(length_sd(45), length_sd(15));
+}
+
+TEST(FittedNoise, WhatIsSetInTwoModulesIsOneValue) {
+  const slam::MeasurementNoiseConfig noise;
+  EXPECT_EQ(active::PamsConfig::saker().faces.hidden_side_m, noise.fitted_hidden_side_m);
+  EXPECT_EQ(uncertainty::FitConfig().whole_width_sd_m, noise.fitted_width_sd_m);
 }
 
 TEST(FittedNoise, NeedsAModel) {
