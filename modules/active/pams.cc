@@ -54,22 +54,29 @@ void PamsPolicy::look(int index) {
     flown_.push_back(*expected_);
     expected_.reset();
   }
-  if (!enough(index, known)) return;
-  sure_[index] = true;
-  close(index, seen_status(index), why_none(index));
+  sure_[index] = enough(index, known);
+  if (sure_[index]) close(index, seen_status(index), why_none(index));
 }
 
-/// What was known well enough is looked at further where later windows contradict the earlier ones.
+/// What was known well enough is looked at further where later windows contradict the earlier ones,
+/// and looked for where they took it off the map.
 void PamsPolicy::reconsider() {
   for (int index = 0; index < targets_.size(); ++index) {
-    if (!sure_[index] || targets_[index].status != TargetStatus::done) continue;
+    if (!sure_[index] || targets_[index].status == TargetStatus::pending) continue;
     if (sees(body_, yaw_, targets_[index], 0)) {
       looks_[index].add(body_, targets_[index].place(), elapsed_s_, flown_m_);
     }
-    if (size_is_known(index, known_of(index), pams_.reopen_share)) continue;
+    if (stays_closed(index)) continue;
     sure_[index] = false;
     reopen(index);
   }
+}
+
+/// Of a target that was known well enough.
+bool PamsPolicy::stays_closed(int index) const {
+  const Target& target = targets_[index];
+  if (!target.mapped()) return target.absent || !pams_.map_counts;
+  return size_is_known(index, known_of(index), pams_.reopen_share);
 }
 
 bool PamsPolicy::choose(int index) {
@@ -78,7 +85,8 @@ bool PamsPolicy::choose(int index) {
     return VisitPolicy::choose(index);
   }
   candidates_.clear();
-  if (views_[index] >= pams_.most_views || enough(index, known_of(index))) return false;
+  sure_[index] = enough(index, known_of(index));
+  if (sure_[index] || views_[index] >= pams_.most_views) return false;
   if (!reachability_) {
     reachability_.emplace(surroundings_, body_, config_.viewpoints.clearance_m, in_geofence_);
   }

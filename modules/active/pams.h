@@ -31,7 +31,8 @@ namespace saker::active {
 /// better viewpoint replaces the one that is flown to; where the map knows less of a target than
 /// its views should have told, for they disagree, the map is believed; a length or width that it
 /// does not know keeps a target open, or opens it again, and is worth all of the lattice where the
-/// region's samples are used up. Cost: some 20 ms a decision.
+/// region's samples are used up; what was known well enough and left the map is looked for again.
+/// Cost: some 20 ms a decision.
 class PamsPolicy : public VisitPolicy {
  public:
   PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, TargetList targets,
@@ -56,6 +57,7 @@ class PamsPolicy : public VisitPolicy {
     PathProblem problem;
   };
 
+  [[nodiscard]] bool stays_closed(int index) const;
   [[nodiscard]] bool choose_among(int index, const std::vector<bool>& region, Sampling sampling);
   [[nodiscard]] std::vector<bool> region_of(int index) const;
   void judge(Candidate& candidate, int index) const;
@@ -80,7 +82,7 @@ class PamsPolicy : public VisitPolicy {
   std::vector<Looks> looks_;                  ///< one a target, as the next three
   std::vector<int> cells_;                    ///< the most that ever counted
   std::vector<int> views_;                    ///< viewpoints flown
-  std::vector<bool> sure_;                    ///< closed as known well enough
+  std::vector<bool> sure_;                    ///< known well enough when last looked at
   std::optional<Reachability> reachability_;  ///< of this decision
   std::optional<Expectation> expected_;       ///< of the goal
   std::vector<Expectation> flown_;            ///< in this decision

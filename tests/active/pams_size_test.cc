@@ -73,6 +73,33 @@ TEST(PamsSize, AClosedTargetWhoseViewsContradictEachOtherLaterIsLookedAtFurther)
   EXPECT_EQ(flight.target(0).status, TargetStatus::done);
 }
 
+TEST(PamsSize, ATargetFoundKnownWellEnoughInItsTurnIsReconsideredAsWell) {
+  PamsConfig config = easily_enough();
+  config.enough_entropy = 0;  // the length alone decides
+  KnownButForItsLength flight(config);
+  flight.know_length_to(0.5);
+  flight.fly(8);
+  ASSERT_EQ(flight.target(0).status, TargetStatus::pending);
+  flight.body.x() -= 100;  // out of view
+  flight.know_length_to(0.05);
+  flight.decide();
+  ASSERT_EQ(flight.target(0).status, TargetStatus::done);
+  ASSERT_NE(flight.target(0).reason.find("; known well enough"), std::string::npos);
+  flight.know_length_to(0.5);
+  EXPECT_EQ(flight.decide().status, ActiveStatus::flying);
+}
+
+TEST(PamsSize, AClosedTargetWhoseObjectLeavesTheMapIsLookedForAgain) {
+  KnownButForItsLength flight(easily_enough());
+  flight.know_length_to(0.05);
+  flight.fly(600);
+  ASSERT_EQ(flight.target(0).status, TargetStatus::done);
+  flight.map({});
+  EXPECT_EQ(flight.decide().status, ActiveStatus::flying);
+  EXPECT_LT(flight.fly(600), 600);
+  EXPECT_EQ(flight.target(0).status, TargetStatus::visited);
+}
+
 TEST(PamsSize, AMapThatNeverKnowsEndsTheFlightAllTheSame) {
   KnownButForItsLength flight(easily_enough());
   flight.know_length_to(2);
