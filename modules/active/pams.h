@@ -82,7 +82,7 @@ class PamsPolicy : public VisitPolicy {
   std::vector<Looks> looks_;                  ///< one a target, as the next three
   std::vector<int> cells_;                    ///< the most that ever counted
   std::vector<int> views_;                    ///< viewpoints flown
-  std::vector<bool> sure_;                    ///< known well enough when last looked at
+  std::vector<bool> sure_;                    ///< known well enough when last asked
   std::optional<Reachability> reachability_;  ///< of this decision
   std::optional<Expectation> expected_;       ///< of the goal
   std::vector<Expectation> flown_;            ///< in this decision
