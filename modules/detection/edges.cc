@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace saker::detection {
 namespace {
@@ -64,6 +65,26 @@ double free_from(const Footprint& footprint, int k, int end, const Sight& sight,
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector2d> within(const Footprint& footprint,
+                                    const std::vector<Eigen::Vector2d>& places, const Sight& sight,
+                                    const VehicleConfig& config) {
+  constexpr double kLookedAt = 0.5;  // of 1
+  const Eigen::Rotation2Dd to_axes(-footprint.direction);
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(-1e9), high = -low;
+  for (int k = 0; k < 2; ++k) {
+    const auto looked = looked_at(footprint, sight.sensors, k, config.noise.setback);
+    const double out = config.footprint.stands_out_m;
+    if (looked[0] > kLookedAt) low[k] = footprint.low[k] - out;
+    if (looked[1] > kLookedAt) high[k] = footprint.high[k] + out;
+  }
+  std::vector<Eigen::Vector2d> kept;
+  std::ranges::copy_if(places, std::back_inserter(kept), [&](const Eigen::Vector2d& place) {
+    const Eigen::Vector2d at = to_axes * place;
+    return (at.array() >= low.array()).all() && (at.array() <= high.array()).all();
+  });
+  return kept;
+}
 
 Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackConfig& config) {
   Footprint seen = footprint;

@@ -8,6 +8,13 @@
 
 namespace saker::detection {
 
+/// The places that do not stand out of a face that was looked at, by more than `stands_out_m`: what
+/// does is not the vehicle's, or a mirror. Of a face that nobody looked at, what stands out may be
+/// all that was seen.
+[[nodiscard]] std::vector<Eigen::Vector2d> within(const Footprint& footprint,
+                                                  const std::vector<Eigen::Vector2d>& places,
+                                                  const Sight& sight, const VehicleConfig& config);
+
 /// The footprint with each edge where it likely is. Of a face that no sensor looked at, what stands
 /// out farthest; seen over the vehicle that is its upper edge, some way back from the lower part.
 [[nodiscard]] Footprint as_seen(const Footprint& footprint, const Sight& sight,

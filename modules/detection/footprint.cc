@@ -39,69 +39,93 @@ Footprint percentiles(const Places& hull, double direction, const FootprintConfi
   return footprint;
 }
 
-/// How far the strips across an axis reach along it.
-struct Reach {
-  std::vector<double> low, high;
-};
+/// The places along both axes of a direction.
+using Along = std::array<std::vector<double>, 2>;
+/// How far the strips across an axis reach outward along it, to its low and to its high side.
+using Reach = std::array<std::vector<double>, 2>;
+
+Along along_both(double direction, const Places& places) {
+  const auto axis = axes(direction);
+  return {along(axis[0], places), along(axis[1], places)};
+}
 
 Reach reach(const std::vector<double>& along, const std::vector<double>& across, double strip_m) {
-  constexpr double kNone = 1e9;
+  constexpr double kNone = -1e9;
   const auto [first, last] = std::minmax_element(across.begin(), across.end());
   const auto strip = [&](double at) { return static_cast<std::size_t>((at - *first) / strip_m); };
-  Reach reach{std::vector<double>(strip(*last) + 1, kNone), {}};
-  reach.high.assign(reach.low.size(), -kNone);
+  Reach reach;
+  reach.fill(std::vector<double>(strip(*last) + 1, kNone));
   for (std::size_t i = 0; i < along.size(); ++i) {
-    double& low = reach.low[strip(across[i])];
-    double& high = reach.high[strip(across[i])];
-    low = std::min(low, along[i]);
+    double& low = reach[0][strip(across[i])];
+    double& high = reach[1][strip(across[i])];
+    low = std::max(low, -along[i]);
     high = std::max(high, along[i]);
   }
-  std::erase(reach.low, kNone);
-  std::erase(reach.high, -kNone);
+  for (std::vector<double>& side : reach) std::erase(side, kNone);
   return reach;
 }
 
-/// Zhang et al., eq. 5, with the sides where most strips reach to; a point beyond a side is as
-/// close as one within. Smooth at a side, so that of points which all lie near one still the
+/// How far outward a side lies: where most strips reach to, of those no farther out than the
+/// outermost that lie together.
+double side_of(std::vector<double> outward, const FootprintConfig& config) {
+  std::ranges::sort(outward);
+  const double share = config.together_share * static_cast<double>(outward.size());
+  const auto least = std::max<std::size_t>(2, static_cast<std::size_t>(std::ceil(share)));
+  for (std::size_t n = outward.size(); n >= least; --n) {
+    if (outward[n - 1] - outward[n - least] > config.together_m) continue;
+    outward.resize(n);
+    break;
+  }
+  return core::percentile(outward, config.reach_percentile / 100);
+}
+
+/// Zhang et al., eq. 5, with the sides where most of all strips reach to; a point beyond a side is
+/// as close as one within. Smooth at a side, so that of points which all lie near one still the
 /// closest direction wins.
-double closeness(const std::array<std::vector<double>, 2>& values, const Footprint& footprint,
-                 double side) {
-  double score = 0;
-  for (std::size_t i = 0; i < values[0].size(); ++i) {
-    double nearest = 1e9;
-    for (int k = 0; k < 2; ++k) {
-      const double at = values[static_cast<std::size_t>(k)][i];
-      nearest =
-          std::min({nearest, std::abs(at - footprint.low[k]), std::abs(footprint.high[k] - at)});
+double closeness(const Along& places, const FootprintConfig& config) {
+  std::array<std::array<double, 2>, 2> sides{};  // [axis][low, high], outward
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Reach strips = reach(places[k], places[1 - k], config.strip_m);
+    for (std::size_t end = 0; end < 2; ++end) {
+      sides[k][end] = core::percentile(strips[end], config.reach_percentile / 100);
     }
-    score += 1 / std::hypot(nearest, side);
+  }
+  double score = 0;
+  for (std::size_t i = 0; i < places[0].size(); ++i) {
+    double nearest = 1e9;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double at = places[k][i];
+      nearest = std::min({nearest, std::abs(at + sides[k][0]), std::abs(sides[k][1] - at)});
+    }
+    score += 1 / std::hypot(nearest, config.side_m);
   }
   return score;
 }
 
-Footprint sides(const Places& places, const FootprintConfig& config) {
-  Footprint best;
-  double best_score = -1;
+double closest_direction(const Places& places, const FootprintConfig& config) {
+  double best = 0, best_score = -1;
   for (double degrees = 0; degrees < 90; degrees += config.step_deg) {
-    Footprint footprint;
-    footprint.direction = degrees * M_PI / 180;
-    const auto axis = axes(footprint.direction);
-    const std::array<std::vector<double>, 2> values = {along(axis[0], places),
-                                                       along(axis[1], places)};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Reach strips = reach(values[k], values[1 - k], config.strip_m);
-      const auto i = static_cast<Eigen::Index>(k);
-      footprint.low[i] = core::percentile(strips.low, 1 - config.reach_percentile / 100);
-      footprint.high[i] = core::percentile(strips.high, config.reach_percentile / 100);
-      footprint.outer_low[i] = core::percentile(strips.low, 1 - config.outer_percentile / 100);
-      footprint.outer_high[i] = core::percentile(strips.high, config.outer_percentile / 100);
-    }
-    const double score = closeness(values, footprint, config.side_m);
+    const double direction = degrees * M_PI / 180;
+    const double score = closeness(along_both(direction, places), config);
     if (score <= best_score) continue;
     best_score = score;
-    best = footprint;
+    best = direction;
   }
   return best;
+}
+
+Footprint sides(const Places& places, const FootprintConfig& config) {
+  Footprint footprint;
+  footprint.direction = closest_direction(places, config);
+  const Along at = along_both(footprint.direction, places);
+  for (int k = 0; k < 2; ++k) {
+    const auto [low, high] = reach(at[k], at[1 - k], config.strip_m);
+    footprint.low[k] = -side_of(low, config);
+    footprint.high[k] = side_of(high, config);
+    footprint.outer_low[k] = -core::percentile(low, config.outer_percentile / 100);
+    footprint.outer_high[k] = core::percentile(high, config.outer_percentile / 100);
+  }
+  return footprint;
 }
 
 }  // namespace

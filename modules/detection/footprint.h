@@ -14,7 +14,10 @@
 /// across, in one of two ways. `sides`: the direction is the one under which most points lie near a
 /// side (Zhang et al., "Efficient L-Shape Fitting for Vehicle Detection Using Laser Scanners", IV
 /// 2017); a side lies where most strips across it reach to, so that what stands out of a few of
-/// them, as a wing mirror does, or stays back, as a rounded corner, does not move it. `hull`: the
+/// them, as a wing mirror does, or stays back, as a rounded corner, does not move it. What reaches
+/// farther than any strips that lie together is no side: leaves of a bush that touches it, each
+/// somewhere else (the mode of the reaches, as in least median of squares, Rousseeuw 1984, not
+/// their percentile: that a bush moves from a quarter of the strips on). `hull`: the
 /// paper's (III-A), the first principal component of the convex hull's vertices and percentiles
 /// over them; the hull has few vertices on a straight side, and a mirror is one of them.
 namespace saker::detection {
@@ -30,6 +33,9 @@ struct FootprintConfig {
   double strip_m = 0.25;
   double reach_percentile = 75;
   double outer_percentile = 95;
+  double together_m = 0.2;
+  double together_share = 0.3;
+  double stands_out_m = 0.15;
   double side_m = 0.1;
   double step_deg = 1;
   double low_percentile = 5;
@@ -44,7 +50,17 @@ struct FootprintConfig {
         "reach_percentile", reach_percentile, {50, 100}, "%",
         "sides: of how far the strips reach outward: the side; a quarter of them may stand out");
     v.field("outer_percentile", outer_percentile, {50, 100}, "%",
-            "sides: the same of what stands out farthest: all that is seen of a side from behind");
+            "sides: the same of what stands out farthest, alone or not: all that is seen of a side "
+            "from behind");
+    v.field(
+        "together_m", together_m, {0.01, 1}, "m",
+        "sides: strips that reach equally far: a bumper's curve is within, leaves scatter more");
+    v.field("together_share", together_share, {0, 1}, "",
+            "sides: of the strips that do so: a side; what reaches farther is none. Leaves of a "
+            "bush rarely are so many, a side whose half is hidden is");
+    v.field("stands_out_m", stands_out_m, {0, 5}, "m",
+            "sides: of a face that was looked at: not the vehicle's, and once left out the "
+            "direction is found again");
     v.field("side_m", side_m, {0.01, 1}, "m",
             "sides: nearer to a side than this counts as on it: doors and wheels, noise and drift");
     v.field("step_deg", step_deg, {0.1, 10}, "deg", "sides: step of the directions tried");

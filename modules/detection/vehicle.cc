@@ -187,6 +187,14 @@ Matrix9d covariance_of(const Rectangle& r, const VehicleNoiseConfig& noise) {
   return P;
 }
 
+/// Leaves of a bush beside it turn the rectangle, too: once more without what stands out of it.
+Footprint footprint_of(const Places& places, const Sight& sight, const VehicleConfig& config) {
+  const Footprint first = fit_footprint(places, config.footprint);
+  if (config.footprint.method == FootprintMethod::hull) return first;
+  const Places own = within(first, places, sight, config);
+  return own.size() < places.size() ? fit_footprint(own, config.footprint) : first;
+}
+
 VehicleStatus judge(const Footprint& footprint, double top, const VehicleConfig& config) {
   const double longer = footprint.size().maxCoeff();
   const double shorter = footprint.size().minCoeff();
@@ -213,7 +221,7 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
   fit.motion = motion_of(points, config);
   const Places places = thinned(points, fit.motion.velocity, config.thin_m);
   const Footprint footprint =
-      as_seen(fit_footprint(places, config.footprint), sight, config.noise.setback);
+      as_seen(footprint_of(places, sight, config), sight, config.noise.setback);
   const double top = top_of(points, config.top_percentile);
   fit.status = judge(footprint, top, config);
   if (fit.status != VehicleStatus::fitted) return fit;

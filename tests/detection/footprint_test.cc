@@ -64,6 +64,34 @@ TEST(Footprint, MirrorsMoveNoSide) {
   EXPECT_GT((footprint.outer_high - footprint.outer_low).y(), footprint.size().y());
 }
 
+TEST(Footprint, WhatReachesFartherThanAnyStripsTogetherIsNoSide) {
+  const auto with_posts = [](double spread) {
+    Places places = outline(0);
+    for (int i = 0; i < 4; ++i) {  // of eight strips
+      const double y = -0.85 + 0.25 * i;
+      places.emplace_back(-kLength / 2 - 0.2 - spread * i, y);
+    }
+    return fit_footprint(places, {});
+  };
+  EXPECT_NEAR(with_posts(0.25).low.x(), -kLength / 2, 0.01) << "each somewhere else";
+  EXPECT_NEAR(with_posts(0.02).low.x(), -kLength / 2 - 0.22, 0.05) << "half of it, equally far";
+}
+
+TEST(Footprint, OnlyOfAFaceThatWasLookedAtNothingStandsOut) {
+  const Footprint footprint = fit_footprint(outline(0), {});
+  Beams none;
+  none.fill(Window());
+  const Surroundings bare({});
+  const Sight from_behind{{{-9, 0, 2}}, none, bare, SE3::Identity()};
+  const VehicleConfig config;
+  const double out = 2 * config.footprint.stands_out_m;
+  const Places places = {{0, 0}, {footprint.low.x() - out, 0}, {footprint.high.x() + out, 0}};
+  const Places kept = within(footprint, places, from_behind, config);
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0], places[0]);
+  EXPECT_EQ(kept[1], places[2]);
+}
+
 TEST(Footprint, OfTheHullIsThePapersPercentiles) {
   FootprintConfig config;
   config.method = FootprintMethod::hull;

@@ -103,6 +103,46 @@ TEST(Vehicle, SeenFromBehindOnlyDoesNotClaimToKnowItsLength) {
   EXPECT_LT(std::abs(fit.cuboid.pose.translation().x() - 12), 2 * std::sqrt(fit.covariance(3, 3)));
 }
 
+/// Leaves of a bush about a place in the frame of a box.
+void add_leaves(const MadeBox& box, const Eigen::Vector3d& middle, double radius, int count,
+                std::vector<BodyPoint>& points) {
+  core::Rng rng(7);
+  const Eigen::Rotation2Dd turn(box.yaw);
+  for (int i = 0; i < count; ++i) {
+    Eigen::Vector3d leaf(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+    if (leaf.norm() > 1) continue;
+    leaf = middle + radius * leaf;
+    leaf.head<2>() = turn * leaf.head<2>() + Eigen::Vector2d(box.x, box.y);
+    points.push_back({leaf.cast<float>(), 0});
+  }
+}
+
+/// Where its rear lies, in the frame of a box.
+double rear_of(const objects::Cuboid& cuboid, const MadeBox& box) {
+  const Eigen::Vector2d middle =
+      cuboid.pose.translation().head<2>() - Eigen::Vector2d(box.x, box.y);
+  return (Eigen::Rotation2Dd(-box.yaw) * middle).x() - cuboid.size.x() / 2;
+}
+
+TEST(Vehicle, BushAtItsCornerMovesNoEnd) {
+  const Scene scene{{0, 0, 4}, {10, 2, 0.4}};
+  std::vector<BodyPoint> points = scene.points();
+  add_leaves(scene.box, {-2.5, -0.3, 1}, 0.7, 30, points);  // over half of its rear
+  const VehicleFit fit = scene.fitted_to(points);
+  ASSERT_EQ(fit.status, VehicleStatus::fitted);
+  EXPECT_NEAR(rear_of(fit.cuboid, scene.box), -2.25, 0.1);
+  EXPECT_LT(turned(fit.cuboid, 0.4), 0.03);
+}
+
+TEST(Vehicle, LeavesBesideItDoNotTurnIt) {
+  const Scene scene{{0, -8, 4}, {0, 0, 0}};
+  std::vector<BodyPoint> points = scene.points();
+  add_leaves(scene.box, {-1.6, -1, 1.5}, 1.1, 200, points);  // half of its side
+  const VehicleFit fit = scene.fitted_to(points);
+  ASSERT_EQ(fit.status, VehicleStatus::fitted);
+  EXPECT_LT(turned(fit.cuboid, 0), 0.03);
+}
+
 TEST(Vehicle, EndThatIsHiddenIsNotKnown) {
   const Scene free{{0, 0, 2}, {12, 0, M_PI / 2}};
   EXPECT_LT(length_sd(free.fit()), 0.2);
