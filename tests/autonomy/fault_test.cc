@@ -107,7 +107,7 @@ TEST(Fault, WithOdometryThatStopsItLands) {
 
 TEST(Fault, AnObstacleThatComesIntoTheWayStopsIt) {
   // On a straight part of the way: faster than its turns are flown.
-  FaultyFlight flight(on_the_way(ScenarioEventKind::obstacle, 2.42));
+  FaultyFlight flight(on_the_way(ScenarioEventKind::obstacle, 2.5));
   ASSERT_TRUE(flight.fly_into_event());
   flight.go_on(kLongEnough_s);
   EXPECT_LE(flight.settled_after(), kSettled_s);
