@@ -15,9 +15,9 @@
 /// side (Zhang et al., "Efficient L-Shape Fitting for Vehicle Detection Using Laser Scanners", IV
 /// 2017); a side lies where most strips across it reach to, so that what stands out of a few of
 /// them, as a wing mirror does, or stays back, as a rounded corner, does not move it. What reaches
-/// farther than any strips that lie together is no side: leaves of a bush that touches it, each
-/// somewhere else (the mode of the reaches, as in least median of squares, Rousseeuw 1984, not
-/// their percentile: that a bush moves from a quarter of the strips on). `hull`: the
+/// farther than any strips that lie together is no side: sparse leaves of a bush that touches it,
+/// each somewhere else, would move the percentile from a quarter of the strips on. A dense bush,
+/// whose strips reach equally far, is a side as well. `hull`: the
 /// paper's (III-A), the first principal component of the convex hull's vertices and percentiles
 /// over them; the hull has few vertices on a straight side, and a mirror is one of them.
 namespace saker::detection {
