@@ -145,7 +145,6 @@ struct Expectation {
   int viewpoint_id = -1;
   int target_id = -1;
   int object_id = -1;          ///< of the mapped object
-  int cell = -1;               ///< of the uncertainty model, from which the target will be seen
   double gain = NAN;           ///< nat, off the entropies of all targets that are seen from there
   Eigen::MatrixXd covariance;  ///< after it, as uncertainty::Prediction's and with the common part
 };

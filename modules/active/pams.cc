@@ -50,7 +50,7 @@ void PamsPolicy::look(int index) {
     cells_[index] = known.cells();
     saw_something_new(index);
   }
-  if (flies_to(index) && known.counted(expected_->cell)) {
+  if (has_flown_to(index, known)) {
     flown_.push_back(*expected_);
     expected_.reset();
   }
@@ -128,6 +128,19 @@ void PamsPolicy::judge(Candidate& candidate, int index) const {
 bool PamsPolicy::flies_to(int index) const {
   return goal_ && goal_->target == index && expected_ &&
          expected_->viewpoint_id == goal_->viewpoint.id;
+}
+
+/// The target is looked at from the goal's cell, as cells lie about it now, and was for a dwell: an
+/// estimate that turns takes all cells with it.
+bool PamsPolicy::has_flown_to(int index, const Knowledge& known) const {
+  if (!flies_to(index)) return false;
+  const int cell = cell_from(body_, index);
+  return cell == cell_from(goal_->viewpoint.position, index) && known.counted(cell);
+}
+
+/// Of the model.
+int PamsPolicy::cell_from(const Eigen::Vector3d& eye, int index) const {
+  return predicted(eye, targets_[index], model_, pams_).cell;
 }
 
 bool PamsPolicy::choose_among(int index, const std::vector<bool>& region, Sampling sampling) {
@@ -278,7 +291,6 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   expected.viewpoint_id = viewpoint.id;
   expected.target_id = target.id;
   expected.object_id = target.object_id;
-  expected.cell = choice.problem.stops[stop].front().cell;
   expected.gain = path_through(choice.problem, {stop}).gain;
   expected.covariance = covariance.topLeftCorner(common.rows(), common.cols());
   expected_ = expected;

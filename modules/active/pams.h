@@ -62,6 +62,8 @@ class PamsPolicy : public VisitPolicy {
   [[nodiscard]] std::vector<bool> region_of(int index) const;
   void judge(Candidate& candidate, int index) const;
   [[nodiscard]] bool flies_to(int index) const;
+  [[nodiscard]] bool has_flown_to(int index, const Knowledge& known) const;
+  [[nodiscard]] int cell_from(const Eigen::Vector3d& eye, int index) const;
   [[nodiscard]] Choice choice_among(int index, const std::vector<int>& samples);
   [[nodiscard]] std::vector<int> seen_together(int index) const;
   [[nodiscard]] std::vector<Sight> sights(const Viewpoint& from, const Choice& choice) const;

@@ -16,7 +16,8 @@ bool is_target(const objects::MapObject& object, const objects::ClassTable& tabl
 std::map<int, int> mapped_of(const objects::ObjectMap& said, const objects::ObjectMap& mapped,
                              double gate_m, const objects::ClassTable& table) {
   std::map<int, int> ids;
-  for (const auto& of_class : objects::compare(mapped, said, table, {.gate_m = gate_m})) {
+  const objects::ComparisonOptions options{.cuboid_gate_m = gate_m, .cylinder_gate_m = gate_m};
+  for (const auto& of_class : objects::compare(mapped, said, table, options)) {
     for (const objects::FoundPair& pair : of_class.pairs) ids[pair.truth] = pair.mapped;
   }
   return ids;

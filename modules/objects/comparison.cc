@@ -46,14 +46,13 @@ Eigen::MatrixXd distances(const Objects& mapped, const Objects& truth) {
 
 /// Whether a mapped object without a partner is another's second self, and does not stand on
 /// something of another class beside it.
-bool is_duplicate(const MapObject& mapped, const ObjectMap& truth,
-                  const ComparisonOptions& options) {
+bool is_duplicate(const MapObject& mapped, const ObjectMap& truth, double gate_m) {
   const auto nearer = [&](const MapObject& a, const MapObject& b) {
     return distance(mapped, a) < distance(mapped, b);
   };
   const auto nearest = std::min_element(truth.objects.begin(), truth.objects.end(), nearer);
   return nearest != truth.objects.end() && nearest->class_id == mapped.class_id &&
-         distance(mapped, *nearest) <= options.gate_m;
+         distance(mapped, *nearest) <= gate_m;
 }
 
 /// Pairs that count; fills the numbers of the class.
@@ -61,14 +60,16 @@ std::vector<Pair> paired(ClassId id, const ObjectMap& mapped_map, const ObjectMa
                          const ComparisonOptions& options, ClassComparison& result) {
   const Objects mapped = of_class(mapped_map, id), truth = of_class(truth_map, id);
   const Eigen::MatrixXd cost = distances(mapped, truth);
-  const std::vector<int> truth_of = assign(cost, options.gate_m);
+  const double gate_m =
+      result.shape == Shape::cuboid ? options.cuboid_gate_m : options.cylinder_gate_m;
+  const std::vector<int> truth_of = assign(cost, gate_m);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < mapped.size(); ++i) {
     if (truth_of[i] >= 0) {
       const MapObject* partner = truth[static_cast<std::size_t>(truth_of[i])];
       if (counts(*partner, options)) pairs.push_back({mapped[i], partner});
     } else {
-      ++(is_duplicate(*mapped[i], truth_map, options) ? result.duplicates : result.invented);
+      ++(is_duplicate(*mapped[i], truth_map, gate_m) ? result.duplicates : result.invented);
     }
   }
   result.truth = static_cast<int>(std::count_if(

@@ -11,7 +11,9 @@
 namespace saker::objects {
 
 struct ComparisonOptions {
-  double gate_m = 1.5;  ///< in x-y, for a pair
+  double cuboid_gate_m = 1.5;  ///< in x-y, for a pair
+  /// The same of cylinders: as near as SLAM takes two for one (`cylinder_gate_m` of association).
+  double cylinder_gate_m = 0.8;
   int least_points =
       0;  ///< truth that says it was hit by fewer returns does not count, mapped or not
 };

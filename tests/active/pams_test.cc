@@ -219,6 +219,25 @@ TEST_P(BothPolicies, EndWhenTheHeadingFlipsAllTheTime) {
   EXPECT_LT(step, 2000);
 }
 
+TEST_P(BothPolicies, HaveNotFlownToAViewpointBecauseTheEstimateTurned) {
+  PamsConfig config = never_enough(GetParam());
+  config.price_per_s = 0;
+  PamsFlight flight(config, {car(25, 5)});
+  std::size_t flown = 0;
+  for (int step = 0; step < 200 && flight.decide().status == ActiveStatus::flying; ++step) {
+    for (; flown < flight.flown.size(); ++flown) {
+      const int id = flight.flown[flown].viewpoint_id;
+      const auto goal = std::ranges::find(flight.goals, id, &Viewpoint::id);
+      ASSERT_NE(goal, flight.goals.end());
+      EXPECT_LT((goal->position - flight.body).norm(), 2 * kCellRange) << "decision " << step;
+    }
+    flight.map({car(25, 5, step / 6 % 4 * pi / 2)});
+    const Eigen::Vector3d way = flight.plan.goal->position - flight.body;
+    flight.body += way * std::min(1.0, 2 / std::max(way.norm(), 1e-9));
+  }
+  EXPECT_GT(flown, 0U);
+}
+
 TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue) {
   PamsConfig config = never_enough(GetParam());
   config.drift_counts = false;

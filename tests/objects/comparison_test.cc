@@ -81,6 +81,14 @@ TEST(Comparison, CountsFoundMissedInventedAndDuplicates) {
   EXPECT_EQ(pole.truth + pole.mapped, 0);
 }
 
+TEST(Comparison, AThingBesideATrunkIsNotTheTrunkThatWasMissed) {
+  const ObjectMap truth = map_of({trunk(0, 5, 5)});
+  EXPECT_EQ(of(compare(map_of({trunk(0, 5, 5.7)}), truth, {}, {}), "trunk").found, 1);
+  const ClassComparison beside = of(compare(map_of({trunk(0, 5, 6)}), truth, {}, {}), "trunk");
+  EXPECT_EQ(beside.missed, 1);
+  EXPECT_EQ(beside.invented, 1);
+}
+
 TEST(Comparison, PoleTakenForATrunkBesideATrunkIsInventedNotADuplicate) {
   MapObject pole = trunk(1, 6, 5);
   pole.class_id = 3;

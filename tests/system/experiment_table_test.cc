@@ -95,20 +95,17 @@ TEST(ExperimentTable, ShowsTheDistributionBesideMeanAndSpread) {
 TEST(ExperimentTable, PoolsConsistencyByObjectsNotByRuns) {
   const auto with = [](int objects, double nees) {
     Json flown = run("street", "visit", {}, 1);
-    const Json size = objects > 0 ? Json(nees) : Json();
-    flown["consistency"] = {{"trunk",
-                             {{"size_objects", objects},
-                              {"size_nees", size},
-                              {"place_objects", 0},
-                              {"place_nees", nullptr}}}};
+    const auto mean = [&](double value) { return objects > 0 ? Json(value) : Json(); };
+    flown["consistency"] = {
+        {"trunk", {{"objects", objects}, {"size_nees", mean(nees)}, {"place_nees", mean(1)}}}};
     return flown;
   };
   const auto rows = pool({with(3, 1.0), with(0, NAN), with(1, 5.0), run("street", "visit", {}, 1)});
   ASSERT_EQ(rows.size(), 1U);
   const Json trunks = row_json(rows[0])["consistency"]["trunk"];
-  EXPECT_EQ(trunks["size_objects"], 4);
+  EXPECT_EQ(trunks["objects"], 4);
   EXPECT_DOUBLE_EQ(trunks["size_nees"].get<double>(), 2.0);
-  EXPECT_TRUE(trunks["place_nees"].is_null());
+  EXPECT_DOUBLE_EQ(trunks["place_nees"].get<double>(), 1.0);
   const std::string text = consistency_text(rows);
   EXPECT_NE(text.find("trunk"), std::string::npos);
   EXPECT_NE(text.find("2.00"), std::string::npos);

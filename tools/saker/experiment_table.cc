@@ -26,26 +26,27 @@ void append(const std::vector<double>& values, std::vector<double>& to) {
   to.insert(to.end(), values.begin(), values.end());
 }
 
-void add_mean(const Json& figures, const std::string& of, ConsistencySum& to) {
-  const Json& mean = figures.at(of + "_nees");
-  if (!mean.is_number()) return;
-  const int objects = figures.at(of + "_objects");
-  to.objects += objects;
-  to.sum += objects * mean.get<double>();
-}
-
 void add(const ConsistencySum& more, ConsistencySum& to) {
   to.objects += more.objects;
-  to.sum += more.sum;
+  to.size += more.size;
+  to.place += more.place;
+}
+
+/// \param figures one class of a run's `consistency`: means are null where there is no object.
+void add(const Json& figures, ConsistencySum& to) {
+  const int objects = figures.at("objects");
+  if (objects == 0) return;
+  add(ConsistencySum{objects, objects * figures.at("size_nees").get<double>(),
+                     objects * figures.at("place_nees").get<double>()},
+      to);
 }
 
 Json consistency_json(const TableRow& row) {
   Json classes = Json::object();
   for (const auto& [name, c] : row.consistency) {
-    classes[name] = {{"size_objects", c.size.objects},
-                     {"size_nees", number(c.size.mean())},
-                     {"place_objects", c.place.objects},
-                     {"place_nees", number(c.place.mean())}};
+    classes[name] = {{"objects", c.objects},
+                     {"size_nees", number(c.mean_size())},
+                     {"place_nees", number(c.mean_place())}};
   }
   return classes;
 }
@@ -102,10 +103,7 @@ void add(const TableRow& runs, TableRow& row) {
   append(runs.errors, row.errors);
   append(runs.size_nees, row.size_nees);
   append(runs.place_nees, row.place_nees);
-  for (const auto& [name, c] : runs.consistency) {
-    add(c.size, row.consistency[name].size);
-    add(c.place, row.consistency[name].place);
-  }
+  for (const auto& [name, c] : runs.consistency) add(c, row.consistency[name]);
   append(runs.trajectory_errors, row.trajectory_errors);
   append(runs.flight_times, row.flight_times);
   append(runs.paths, row.paths);
@@ -126,10 +124,7 @@ void add(const Json& run, const Reached& reached, TableRow& row) {
     add_number(object.value("place_nees", Json()), row.place_nees);
   }
   const Json consistency = run.value("consistency", Json::object());
-  for (const auto& [name, figures] : consistency.items()) {
-    add_mean(figures, "size", row.consistency[name].size);
-    add_mean(figures, "place", row.consistency[name].place);
-  }
+  for (const auto& [name, figures] : consistency.items()) add(figures, row.consistency[name]);
   add_number(run.at("trajectory_error_m"), row.trajectory_errors);
   add_number(run.at("flight_time_s"), row.flight_times);
   add_number(run.at("path_m"), row.paths);
@@ -200,15 +195,13 @@ std::string consistency_text(const std::vector<TableRow>& rows) {
   std::string text;
   for (const TableRow& row : rows) {
     for (const auto& [name, c] : row.consistency) {
-      text += fmt::format("{:<12} {:<8} {:<8} {:>9.2f} {:>7} {:>10.2f} {:>7}\n", row.scenario,
-                          row.policy, name, c.size.mean(), c.size.objects, c.place.mean(),
-                          c.place.objects);
+      text += fmt::format("{:<12} {:<8} {:<8} {:>9.2f} {:>10.2f} {:>7}\n", row.scenario, row.policy,
+                          name, c.mean_size(), c.mean_place(), c.objects);
     }
   }
   if (text.empty()) return text;
-  return fmt::format("\nall mapped objects\n{:<12} {:<8} {:<8} {:>9} {:>7} {:>10} {:>7}\n",
-                     "scenario", "policy", "class", "size NEES", "objects", "place NEES",
-                     "objects") +
+  return fmt::format("\nall mapped objects\n{:<12} {:<8} {:<8} {:>9} {:>10} {:>7}\n", "scenario",
+                     "policy", "class", "size NEES", "place NEES", "objects") +
          text;
 }
 

@@ -11,17 +11,13 @@
 
 namespace saker::tools {
 
-/// NEES a degree of freedom, summed over objects, so that runs can be put together.
+/// NEES a degree of freedom, summed over the objects of one class, so that runs can be put together.
 struct ConsistencySum {
   int objects = 0;
-  double sum = 0;
+  double size = 0, place = 0;
 
-  [[nodiscard]] double mean() const { return objects > 0 ? sum / objects : NAN; }
-};
-
-/// Of the objects of one class.
-struct ClassConsistency {
-  ConsistencySum size, place;
+  [[nodiscard]] double mean_size() const { return objects > 0 ? size / objects : NAN; }
+  [[nodiscard]] double mean_place() const { return objects > 0 ? place / objects : NAN; }
 };
 
 /// Runs of one scenario with one policy, or of all scenarios, put together: errors of length and
@@ -36,7 +32,7 @@ struct TableRow {
   int collisions = 0;
   std::vector<double> errors;                           ///< m, length and width, mapped − true
   std::vector<double> size_nees, place_nees;            ///< a degree of freedom, one an object
-  std::map<std::string, ClassConsistency> consistency;  ///< by class, of all mapped objects
+  std::map<std::string, ConsistencySum> consistency;    ///< by class, of all mapped objects
   std::vector<double> trajectory_errors;                ///< m, one a run
   std::vector<double> flight_times, paths;              ///< s, m; one a run
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs

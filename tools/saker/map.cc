@@ -129,17 +129,15 @@ Json number(double value) {
 
 Json nees_json(const objects::ConsistencyFigures& nees) {
   return {{"size", number(nees.size)},
-          {"size_objects", nees.size_objects},
           {"place", number(nees.place)},
-          {"place_objects", nees.place_objects}};
+          {"objects", nees.objects}};
 }
 
 void print_nees(const objects::ConsistencyFigures& nees) {
-  if (nees.size_objects == 0) return;
-  std::cout << fmt::format("  NEES a degree of freedom (1: honest)  size {:.2f} of {}", nees.size,
-                           nees.size_objects);
-  std::cout << fmt::format(", place beside its neighbours {:.2f} of {}\n", nees.place,
-                           nees.place_objects);
+  if (nees.objects == 0) return;
+  std::cout << fmt::format(
+      "  NEES a degree of freedom (1: honest)  size {:.2f}, place {:.2f} of {}\n", nees.size,
+      nees.place, nees.objects);
 }
 
 Json class_json(const objects::ClassComparison& c) {
@@ -259,7 +257,13 @@ void add_map(Commands& commands) {
   eval_app.add_option("MAP", options->first, "map to judge")->required();
   eval_app.add_option("TRUTH", options->second, "true map, in the same frame")->required();
   eval_app.add_flag("--json", options->json, "figures as JSON");
-  eval_app.add_option("--gate", options->comparison.gate_m, "largest distance of a pair in x-y, m")
+  eval_app
+      .add_option("--gate", options->comparison.cuboid_gate_m,
+                  "largest distance of a pair of cuboids in x-y, m")
+      ->capture_default_str();
+  eval_app
+      .add_option("--cylinder-gate", options->comparison.cylinder_gate_m,
+                  "the same of cylinders, m")
       ->capture_default_str();
   eval_app
       .add_option("--min-points", options->comparison.least_points,

@@ -57,9 +57,8 @@ Json consistency_figures(const objects::ObjectMap& mapped, const objects::Object
   for (const objects::ClassComparison& c : compared) {
     if (c.found == 0) continue;
     const auto mean = objects::mean_consistency(judged, table.find(c.name));
-    figures[c.name] = {{"size_objects", mean.size_objects},
+    figures[c.name] = {{"objects", mean.objects},
                        {"size_nees", number(mean.size)},
-                       {"place_objects", mean.place_objects},
                        {"place_nees", number(mean.place)}};
   }
   return figures;

@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
                                   const objects::ClassTable& table);
 
 /// How honest the covariances of a whole map are, by class of cuboids or cylinders of which any
-/// object was found: {"vehicle": {"size_objects", "size_nees", "place_objects", "place_nees"}},
-/// objects counted where there is a covariance, and of places enough neighbours.
+/// object was found: {"vehicle": {"objects", "size_nees", "place_nees"}}, objects counted
+/// where there is a covariance.
 [[nodiscard]] Json consistency_figures(const objects::ObjectMap& mapped,
                                        const objects::ObjectMap& truth,
                                        const objects::ClassTable& table);
