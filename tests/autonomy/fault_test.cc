@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "faulty_flight.h"
 
 // What goes wrong in flight, in lockstep: at rest or landing within two seconds, nothing is hit,
@@ -15,14 +17,41 @@ constexpr double kLongEnough_s = 3;
 constexpr double kRecovers_s = 4;     // safety.recover_s, and a moment
 constexpr double kFliesAgain_s = 12;  // replanned, sped up
 constexpr double kGap_s = 0.55;       // longer than safety.lidar_s
+constexpr double kReference_s = 30;   // of the flight without a fault
+constexpr double kInTheWay_m = 0.5;   // from a wall's middle: well within its width
 
-/// As soon as it flies so fast.
-std::vector<ScenarioEvent> on_the_way(ScenarioEventKind kind, double speed = FaultyFlight::kFast) {
+/// As soon as it flies fast.
+std::vector<ScenarioEvent> on_the_way(ScenarioEventKind kind) {
   ScenarioEvent event;
   event.kind = kind;
   event.at_s = 0;
-  event.from_speed_mps = speed;
+  event.from_speed_mps = FaultyFlight::kFast;
   return {event};
+}
+
+/// A wall, when the flight without it is fastest of all moments after which it comes to where the
+/// wall will stand: it flies into it, and not round a corner before.
+std::vector<ScenarioEvent> wall_in_the_way() {
+  FaultyFlight without;
+  without.go_on(kReference_s);
+  const auto& rows = without.plant.rows;
+  ScenarioEvent wall;
+  double fastest = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Vector2d velocity = rows[i].truth.velocity.head<2>();
+    if (velocity.norm() <= fastest) continue;
+    const Eigen::Vector2d at = rows[i].truth.T_world_body.translation().head<2>() +
+                               wall.ahead_m * velocity.normalized();
+    const auto comes_there = [&](const RecordedPlant::Row& later) {
+      return (later.truth.T_world_body.translation().head<2>() - at).norm() < kInTheWay_m;
+    };
+    if (std::none_of(rows.begin() + static_cast<std::ptrdiff_t>(i), rows.end(), comes_there)) {
+      continue;
+    }
+    fastest = velocity.norm();
+    wall.at_s = rows[i].truth.flight_time_s;
+  }
+  return {wall};
 }
 
 TEST(Fault, WithoutTheExecutiveTheVehicleComesDownByItself) {
@@ -106,8 +135,7 @@ TEST(Fault, WithOdometryThatStopsItLands) {
 }
 
 TEST(Fault, AnObstacleThatComesIntoTheWayStopsIt) {
-  // On a straight part of the way: faster than its turns are flown.
-  FaultyFlight flight(on_the_way(ScenarioEventKind::obstacle, 2.5));
+  FaultyFlight flight(wall_in_the_way());
   ASSERT_TRUE(flight.fly_into_event());
   flight.go_on(kLongEnough_s);
   EXPECT_LE(flight.settled_after(), kSettled_s);
