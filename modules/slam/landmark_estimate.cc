@@ -89,6 +89,18 @@ double robust_cost(const Model& model, std::span<const Weighted> all, const Grap
   return cost;
 }
 
+/// The newest of each view cell, and of all.
+std::vector<const Weighted*> starts(const std::vector<Weighted>& all) {
+  std::map<int, const Weighted*> newest;
+  for (const Weighted& observation : all) {
+    if (observation.cell >= 0) newest[observation.cell] = &observation;
+  }
+  if (all.back().cell < 0) newest[-1] = &all.back();
+  std::vector<const Weighted*> found;
+  for (const auto& [cell, observation] : newest) found.push_back(observation);
+  return found;
+}
+
 /// All that was measured of a landmark, in the world frame by the estimated poses.
 std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains,
                                    const GraphConfig& config) {
@@ -161,12 +173,17 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
 void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config) {
   const std::vector<Weighted> all = all_in_world(landmark, chains, config);
   if (all.size() < 2) return;
-  Model newest = all.back().measured.model;
-  if (auto* cylinder = std::get_if<objects::Cylinder>(&newest)) {
-    cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
+  double least = robust_cost(landmark.model, all, config);
+  for (const Weighted* start : starts(all)) {
+    Model model = start->measured.model;
+    if (auto* cylinder = std::get_if<objects::Cylinder>(&model)) {
+      cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
+    }
+    const double cost = robust_cost(model, all, config);
+    if (cost >= least) continue;
+    least = cost;
+    landmark.model = model;
   }
-  const double now = robust_cost(landmark.model, all, config);
-  if (robust_cost(newest, all, config) < now) landmark.model = newest;
 }
 
 Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config) {

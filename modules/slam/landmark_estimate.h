@@ -9,10 +9,9 @@
 /// What one landmark's own observations say of it, with the poses held.
 namespace saker::slam {
 
-/// The landmark's estimate from its own observations: what candidates get, and the start after a
-/// merge. \return its covariance given the poses, in the landmark's own frame. The newest
-/// measurement is tried as a start too: a robust estimate that began at a part of a vehicle would
-/// never leave it.
+/// The landmark's estimate from its own observations, started anew by `restart_if_better`: what
+/// candidates get, and the start after a merge. \return its covariance given the poses, in the
+/// landmark's own frame.
 Eigen::MatrixXd refine(Landmark& landmark, Chains chains, const GraphConfig& config);
 
 /// How sure the estimate is, given the poses.
@@ -31,7 +30,9 @@ struct GivenPoses {
 [[nodiscard]] GivenPoses given_poses(const Landmark& landmark, Chains chains,
                                      const GraphConfig& config);
 
-/// Moves the estimate to its newest measurement where the robust cost of all is less there.
+/// Moves the estimate to the newest measurement, of all or from one of its view cells, at which the
+/// robust cost of all is least, if it is less there: a robust estimate that began at a part of a
+/// vehicle, or with a bush behind it, would never leave it, however many views tell of another.
 void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& config);
 
 /// Hands what was measured from keyframe `from` on to keyframe `to`, both held, as it weighs in the

@@ -101,6 +101,16 @@ TEST(ViewCell, WithoutACellEveryWindowCounts) {
   EXPECT_NEAR(P(6, 6), kVariance / 6, 1e-6);
 }
 
+TEST(ViewCell, WhatMostCellsSayHoldsThoughTheFirstAndTheLastWindowSayOtherwise) {
+  GraphConfig robust = quadratic();
+  robust.robust_scale = GraphConfig{}.robust_scale;
+  Landmark landmark = measured({{0, 2, 7.4}, {1, 7, 4.4}, {1, 9, 4.4}, {2, 2, 7.4}});
+  std::vector<Keyframe> poses = standing(3);
+  const Chain chain{&poses};
+  (void)refine(landmark, {&chain, 1}, robust);
+  EXPECT_NEAR(length(landmark), 4.4, 0.05);
+}
+
 /// By how much the cells disagree, of [rotation, translation, size].
 Eigen::VectorXd scatter(const std::vector<Window>& windows) {
   Landmark landmark = measured(windows);
