@@ -40,8 +40,8 @@ std::vector<ScenarioEvent> wall_in_the_way() {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Eigen::Vector2d velocity = rows[i].truth.velocity.head<2>();
     if (velocity.norm() <= fastest) continue;
-    const Eigen::Vector2d at = rows[i].truth.T_world_body.translation().head<2>() +
-                               wall.ahead_m * velocity.normalized();
+    const Eigen::Vector2d at =
+        rows[i].truth.T_world_body.translation().head<2>() + wall.ahead_m * velocity.normalized();
     const auto comes_there = [&](const RecordedPlant::Row& later) {
       return (later.truth.T_world_body.translation().head<2>() - at).norm() < kInTheWay_m;
     };
