@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "objects/view_cell.h"
 #include "slam/manifolds.h"
@@ -21,18 +22,24 @@ struct NormalEquations {
 
 /// A measurement in the world frame, and what it weighs.
 struct Weighted {
+  Weighted(Gaussian in_world, double weighs, const HiddenEndConfig& may_hide, int of_cell)
+      : measured(std::move(in_world)), weight(weighs), hidden_ends(may_hide), cell(of_cell) {
+    const Eigen::Index size = measured.covariance.rows();
+    information = measured.covariance.llt().solve(Eigen::MatrixXd::Identity(size, size));
+  }
+
   Gaussian measured;
-  double weight = 1;
-  HiddenEndConfig hidden_ends = kNothingHidden;
-  int cell = -1;
+  Eigen::MatrixXd information;  ///< inverse of its covariance
+  double weight;
+  HiddenEndConfig hidden_ends;
+  int cell;
 };
 
-/// The error of an estimate as its factor weighs it, by the estimate's tangent: whitened², slope.
+/// The error of an estimate as its factor weighs it, by the estimate's tangent: slope, whitened².
 struct Residual {
   Eigen::VectorXd error;
-  Eigen::MatrixXd slope, information;
-
-  [[nodiscard]] double squared() const { return error.dot(information * error); }
+  Eigen::MatrixXd slope;
+  double squared = 0;
 };
 
 Residual residual_of(const Model& model, const Weighted& observation) {
@@ -41,13 +48,14 @@ Residual residual_of(const Model& model, const Weighted& observation) {
   residual.error = -difference(measured.model, model);
   const Eigen::Index size = residual.error.size();
   residual.slope = Eigen::MatrixXd::Identity(size, size);
-  residual.information = measured.covariance.llt().solve(residual.slope);
-  if (!is_cuboid(model)) return residual;
-  const HiddenEnds hidden_ends(std::get<objects::Cuboid>(measured.model), measured.covariance,
-                               observation.hidden_ends);
-  const HiddenEnds::Softened softened = hidden_ends(residual.error);
-  residual.error = softened.error;
-  residual.slope = softened.slope;
+  if (is_cuboid(model)) {
+    const HiddenEnds hidden_ends(std::get<objects::Cuboid>(measured.model), measured.covariance,
+                                 observation.hidden_ends);
+    const HiddenEnds::Softened softened = hidden_ends(residual.error);
+    residual.error = softened.error;
+    residual.slope = softened.slope;
+  }
+  residual.squared = residual.error.dot(observation.information * residual.error);
   return residual;
 }
 
@@ -59,8 +67,8 @@ double robust_weight(double squared, const GraphConfig& config) {
 void add_observation(const Model& model, const Weighted& observation, const GraphConfig& config,
                      NormalEquations& sum) {
   const Residual residual = residual_of(model, observation);
-  const double weight = observation.weight * robust_weight(residual.squared(), config);
-  const Eigen::MatrixXd weighted = weight * residual.slope.transpose() * residual.information;
+  const double weight = observation.weight * robust_weight(residual.squared, config);
+  const Eigen::MatrixXd weighted = weight * residual.slope.transpose() * observation.information;
   sum.information += weighted * residual.slope;
   sum.gradient -= weighted * residual.error;
 }
@@ -80,11 +88,14 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
   return solver.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
-double robust_cost(const Model& model, std::span<const Weighted> all, const GraphConfig& config) {
+/// Summed up to `most` only.
+double robust_cost(const Model& model, std::span<const Weighted> all, const GraphConfig& config,
+                   double most = INFINITY) {
   double cost = 0;
   for (const Weighted& observation : all) {
-    const double squared = residual_of(model, observation).squared();
+    const double squared = residual_of(model, observation).squared;
     cost -= observation.weight * std::log(robust_weight(squared, config));
+    if (cost >= most) break;
   }
   return cost;
 }
@@ -111,8 +122,8 @@ std::vector<Weighted> all_in_world(const Landmark& landmark, Chains chains,
     const Chain& chain = chains[static_cast<std::size_t>(observation.chain)];
     const Keyframe* keyframe = find(*chain.keyframes, observation.keyframe);
     if (keyframe == nullptr) continue;
-    all.push_back({transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured),
-                   weights[i], hidden_ends_of(observation, config), observation.cell});
+    all.emplace_back(transformed(keyframe->T_world_lidar, Matrix6d::Zero(), observation.measured),
+                     weights[i], hidden_ends_of(observation, config), observation.cell);
   }
   return all;
 }
@@ -127,7 +138,7 @@ Gaussian as_weighed(const Weighted& observation, const Model& estimate, const Gr
     const Matrix9d widened = hidden_ends(error).secant.inverse();
     measured.covariance = widened * measured.covariance * widened.transpose();
   }
-  measured.covariance /= robust_weight(residual_of(estimate, observation).squared(), config);
+  measured.covariance /= robust_weight(residual_of(estimate, observation).squared, config);
   return measured;
 }
 
@@ -158,9 +169,10 @@ void hand_over(Landmark& landmark, const Keyframe& from, const Keyframe& to,
   for (Observation& observation : handed) {
     const Gaussian in_world =
         transformed(from.T_world_lidar, Matrix6d::Zero(), observation.measured);
-    observation.measured = transformed(
-        to.T_world_lidar.inverse(), Matrix6d::Zero(),
-        as_weighed({in_world, 1, hidden_ends_of(observation, config)}, landmark.model, config));
+    observation.measured =
+        transformed(to.T_world_lidar.inverse(), Matrix6d::Zero(),
+                    as_weighed({in_world, 1, hidden_ends_of(observation, config), observation.cell},
+                               landmark.model, config));
     observation.keyframe = to.serial;
     remember(landmark, observation);
   }
@@ -179,7 +191,7 @@ void restart_if_better(Landmark& landmark, Chains chains, const GraphConfig& con
     if (auto* cylinder = std::get_if<objects::Cylinder>(&model)) {
       cylinder->height = std::get<objects::Cylinder>(landmark.model).height;
     }
-    const double cost = robust_cost(model, all, config);
+    const double cost = robust_cost(model, all, config, least);
     if (cost >= least) continue;
     least = cost;
     landmark.model = model;
@@ -219,7 +231,7 @@ std::vector<double> robust_weights(const Landmark& landmark, Chains chains,
                                    const GraphConfig& config) {
   std::vector<double> weights;
   for (const Weighted& observation : all_in_world(landmark, chains, config)) {
-    weights.push_back(robust_weight(residual_of(landmark.model, observation).squared(), config));
+    weights.push_back(robust_weight(residual_of(landmark.model, observation).squared, config));
   }
   return weights;
 }
