@@ -9,6 +9,7 @@
 #include "core/rng.h"
 #include "made_flight.h"
 #include "made_model.h"
+#include "made_pams_flight.h"
 
 namespace saker::active {
 namespace {
@@ -17,32 +18,9 @@ using namespace made;
 using objects::Cuboid;
 using std::numbers::pi;
 
-const objects::ClassTable kTable;
 const GoalsConfig kGoals;
 
-/// A flight over mapped cars with the made model.
-struct PamsFlight : Flight {
-  PamsFlight(const PamsConfig& pams, const std::vector<Cuboid>& cars,
-             const InGeofence& in_geofence = everywhere, const ViewModel& model = oblique_model())
-      : Flight(policy_for(pams, cars, in_geofence, model)) {
-    map(cars);
-  }
-
-  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams, const std::vector<Cuboid>& cars,
-                                            const InGeofence& in_geofence, const ViewModel& model) {
-    const ActiveConfig config;
-    return std::make_unique<PamsPolicy>(config, pams,
-                                        TargetList(config.targets, kTable, map_of(cars)),
-                                        in_geofence, model, motion::LimitsConfig{});
-  }
-};
-
 const std::vector<Cuboid> kStreet = {car(20, 5), car(40, -4, 0.5), car(60, 6, 1.2), car(80, -8, 3)};
-
-PamsConfig never_enough(PamsConfig config) {
-  config.enough_entropy = -40;
-  return config;
-}
 
 double obliqueness(const Viewpoint& viewpoint, double heading) {
   return std::abs(std::sin(2 * (viewpoint.bearing - heading)));
@@ -202,40 +180,6 @@ TEST_P(BothPolicies, EndWhileEstimatesTremble) {
   EXPECT_LT(step, 1000);
   EXPECT_EQ(flight.plan.done, 4);
   EXPECT_LE(flight.goals.size(), 4U * static_cast<std::size_t>(GetParam().most_views));
-}
-
-TEST_P(BothPolicies, EndWhenTheHeadingFlipsAllTheTime) {
-  PamsFlight flight(never_enough(GetParam()), kStreet);
-  int step = 0;
-  for (; step < 2000 && flight.decide().status == ActiveStatus::flying; ++step) {
-    std::vector<Cuboid> flipped = kStreet;
-    for (Cuboid& cuboid : flipped) {
-      cuboid.pose.rotate(Eigen::AngleAxisd(step % 4 * pi / 2, Eigen::Vector3d::UnitZ()));
-    }
-    flight.map(flipped);
-    const Eigen::Vector3d way = flight.plan.goal->position - flight.body;
-    flight.body += way * std::min(1.0, 2 / std::max(way.norm(), 1e-9));
-  }
-  EXPECT_LT(step, 2000);
-}
-
-TEST_P(BothPolicies, HaveNotFlownToAViewpointBecauseTheEstimateTurned) {
-  PamsConfig config = never_enough(GetParam());
-  config.price_per_s = 0;
-  PamsFlight flight(config, {car(25, 5)});
-  std::size_t flown = 0;
-  for (int step = 0; step < 200 && flight.decide().status == ActiveStatus::flying; ++step) {
-    for (; flown < flight.flown.size(); ++flown) {
-      const int id = flight.flown[flown].viewpoint_id;
-      const auto goal = std::ranges::find(flight.goals, id, &Viewpoint::id);
-      ASSERT_NE(goal, flight.goals.end());
-      EXPECT_LT((goal->position - flight.body).norm(), 2 * kCellRange) << "decision " << step;
-    }
-    flight.map({car(25, 5, step / 6 % 4 * pi / 2)});
-    const Eigen::Vector3d way = flight.plan.goal->position - flight.body;
-    flight.body += way * std::min(1.0, 2 / std::max(way.norm(), 1e-9));
-  }
-  EXPECT_GT(flown, 0U);
 }
 
 TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue) {

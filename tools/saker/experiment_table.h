@@ -11,7 +11,8 @@
 
 namespace saker::tools {
 
-/// NEES a degree of freedom, summed over the objects of one class, so that runs can be put together.
+/// NEES a degree of freedom, summed over the objects of one class, so that runs can be put
+/// together.
 struct ConsistencySum {
   int objects = 0;
   double size = 0, place = 0;
@@ -30,11 +31,11 @@ struct TableRow {
   int reachable = 0;  ///< of them, as `Reached` says
   int found = 0;
   int collisions = 0;
-  std::vector<double> errors;                           ///< m, length and width, mapped − true
-  std::vector<double> size_nees, place_nees;            ///< a degree of freedom, one an object
-  std::map<std::string, ConsistencySum> consistency;    ///< by class, of all mapped objects
-  std::vector<double> trajectory_errors;                ///< m, one a run
-  std::vector<double> flight_times, paths;              ///< s, m; one a run
+  std::vector<double> errors;                         ///< m, length and width, mapped − true
+  std::vector<double> size_nees, place_nees;          ///< a degree of freedom, one an object
+  std::map<std::string, ConsistencySum> consistency;  ///< by class, of all mapped objects
+  std::vector<double> trajectory_errors;              ///< m, one a run
+  std::vector<double> flight_times, paths;            ///< s, m; one a run
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs
 
   [[nodiscard]] double mapped_share() const;  ///< found of the reachable

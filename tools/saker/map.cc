@@ -128,9 +128,7 @@ Json number(double value) {
 }
 
 Json nees_json(const objects::ConsistencyFigures& nees) {
-  return {{"size", number(nees.size)},
-          {"place", number(nees.place)},
-          {"objects", nees.objects}};
+  return {{"size", number(nees.size)}, {"place", number(nees.place)}, {"objects", nees.objects}};
 }
 
 void print_nees(const objects::ConsistencyFigures& nees) {
