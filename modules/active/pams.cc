@@ -138,7 +138,7 @@ bool PamsPolicy::has_flown_to(int index, const Knowledge& known) const {
   return cell == cell_from(goal_->viewpoint.position, index) && known.counted(cell);
 }
 
-/// Of the model.
+/// The model's cell from which `eye` looks at the target.
 int PamsPolicy::cell_from(const Eigen::Vector3d& eye, int index) const {
   return predicted(eye, targets_[index], model_, pams_).cell;
 }

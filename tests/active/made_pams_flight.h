@@ -10,6 +10,8 @@
 namespace saker::active::made {
 
 const objects::ClassTable kTable;
+const std::vector<objects::Cuboid> kStreet = {car(20, 5), car(40, -4, 0.5), car(60, 6, 1.2),
+                                              car(80, -8, 3)};
 
 /// A flight over mapped cars with the made model.
 struct PamsFlight : Flight {

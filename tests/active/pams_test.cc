@@ -20,8 +20,6 @@ using std::numbers::pi;
 
 const GoalsConfig kGoals;
 
-const std::vector<Cuboid> kStreet = {car(20, 5), car(40, -4, 0.5), car(60, 6, 1.2), car(80, -8, 3)};
-
 double obliqueness(const Viewpoint& viewpoint, double heading) {
   return std::abs(std::sin(2 * (viewpoint.bearing - heading)));
 }

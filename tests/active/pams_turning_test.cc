@@ -14,8 +14,6 @@ using namespace made;
 using objects::Cuboid;
 using std::numbers::pi;
 
-const std::vector<Cuboid> kCars = {car(20, 5), car(40, -4, 0.5), car(60, 6, 1.2), car(80, -8, 3)};
-
 class TurningEstimate : public testing::TestWithParam<PamsConfig> {};
 
 INSTANTIATE_TEST_SUITE_P(Pams, TurningEstimate,
@@ -23,10 +21,10 @@ INSTANTIATE_TEST_SUITE_P(Pams, TurningEstimate,
                          [](const auto& one) { return one.index == 0 ? "paper" : "saker"; });
 
 TEST_P(TurningEstimate, EndsThoughTheHeadingFlipsAllTheTime) {
-  PamsFlight flight(never_enough(GetParam()), kCars);
+  PamsFlight flight(never_enough(GetParam()), kStreet);
   int step = 0;
   for (; step < 2000 && flight.decide().status == ActiveStatus::flying; ++step) {
-    std::vector<Cuboid> flipped = kCars;
+    std::vector<Cuboid> flipped = kStreet;
     for (Cuboid& cuboid : flipped) {
       cuboid.pose.rotate(Eigen::AngleAxisd(step % 4 * pi / 2, Eigen::Vector3d::UnitZ()));
     }

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "objects/comparison.h"
 
 namespace saker::tools {
 namespace {
@@ -16,7 +17,6 @@ constexpr const char* kHeader =
     "t_s,target,viewpoint,predicted_length_sd_m,predicted_width_sd_m,mapped_length_m,"
     "mapped_width_m,true_length_m,true_width_m\n";
 constexpr std::size_t kMostRows = 10'000;  // a mission has some tens
-constexpr double kGate_m = 1.5;            // as in the comparison of maps
 constexpr int kColumns = 9;
 
 const objects::Cuboid* cuboid_of(const objects::ObjectMap& map, int id) {
@@ -32,7 +32,8 @@ const objects::Cuboid* nearest(const objects::ObjectMap& map, const objects::Cub
   const objects::Cuboid* best = nullptr;
   for (const objects::MapObject& object : map.objects) {
     const auto* cuboid = std::get_if<objects::Cuboid>(&object.model);
-    if (cuboid == nullptr || apart(*cuboid, to) > kGate_m) continue;
+    if (cuboid == nullptr || apart(*cuboid, to) > objects::ComparisonOptions{}.cuboid_gate_m)
+      continue;
     if (best == nullptr || apart(*cuboid, to) < apart(*best, to)) best = cuboid;
   }
   return best;
