@@ -257,10 +257,18 @@ void PamsPolicy::add_ways(Choice& choice) const {
   if (next) problem.direct_s = seconds(body_, *next, 0);
   problem.dwell_s = pams_.dwell_s;
   problem.drift_m = pams_.drift_counts ? pams_.drift_m : 0;
-  problem.price_per_s = pams_.price_per_s;
+  problem.price_per_s = price_of(choice.together.front());
   problem.horizon = pams_.horizon;
   problem.most_paths = pams_.most_paths;
   problem.beam = pams_.beam;
+}
+
+/// nat/s.
+double PamsPolicy::price_of(int index) const {
+  const bool has_prior =
+      std::ranges::any_of(targets_.all(), [](const Target& target) { return !target.discovered; });
+  const bool beside = has_prior && targets_[index].discovered;
+  return beside ? pams_.discovered_price_per_s : pams_.price_per_s;
 }
 
 /// The path to fly; that through the goal while nothing is better by a margin. None when no path

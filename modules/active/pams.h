@@ -68,6 +68,7 @@ class PamsPolicy : public VisitPolicy {
   [[nodiscard]] std::vector<int> seen_together(int index) const;
   [[nodiscard]] std::vector<Sight> sights(const Viewpoint& from, const Choice& choice) const;
   void add_ways(Choice& choice) const;
+  [[nodiscard]] double price_of(int index) const;
   [[nodiscard]] std::optional<Path> best_path(const Choice& choice) const;
   void expect(const Choice& choice, const Path& path);
   [[nodiscard]] Belief expected_of(const Viewpoint& viewpoint, int index) const;

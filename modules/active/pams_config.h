@@ -26,6 +26,7 @@ struct PamsConfig {
   double least_probability = 0.8;
   double least_gain = 0.05;
   double price_per_s = 0;
+  double discovered_price_per_s = 0;
   double least_price_per_s = 0;
   int at_once = 1;
   bool replan = false;
@@ -54,6 +55,7 @@ struct PamsConfig {
     config.common_counts = true;
     config.map_counts = true;
     config.price_per_s = 0.3;
+    config.discovered_price_per_s = 0.6;
     config.least_price_per_s = 0.1;
     config.at_once = 4;
     config.replan = true;
@@ -101,6 +103,9 @@ struct PamsConfig {
     v.field("least_gain", least_gain, {0, 10}, "nat", "that a path must bring to be flown");
     v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
             "what a second of flight must bring beside it: the more, the shorter the mission");
+    v.field("discovered_price_per_s", discovered_price_per_s, {0, 10}, "nat/s",
+            "the same for a target that the prior map, where there is one, does not have: what the "
+            "operator did not ask for may take half as long");
     v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
             "the same for a prior target where nothing brings so much and a size is not known");
     v.field("at_once", at_once, {1, 8}, "",

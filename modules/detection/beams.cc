@@ -87,6 +87,12 @@ int Beams::through(const objects::Cuboid& box) const {
   return count;
 }
 
+int Beams::ended_in(const objects::Cuboid& box) const {
+  int count = 0;
+  for_each_in(box, [&](const auto&, const auto&, const Passage& in) { count += in.leave > 1; });
+  return count;
+}
+
 double Beams::nearest(const objects::Cuboid& box, int count, double least_m) const {
   std::vector<float> nearest(static_cast<std::size_t>(count),
                              std::numeric_limits<float>::infinity());  // ascending

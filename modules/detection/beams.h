@@ -18,6 +18,9 @@ class Beams {
   /// \return beams (of those that the window keeps) that entered it, left it and ended behind it.
   [[nodiscard]] int through(const objects::Cuboid& box) const;
 
+  /// \return beams (of those that the window keeps) that ended within it.
+  [[nodiscard]] int ended_in(const objects::Cuboid& box) const;
+
   /// How near to the low face of the box's x axis beams come within the box: what they met there,
   /// if anything, lies farther on.
   /// \param count   of beams that must come so near

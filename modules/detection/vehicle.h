@@ -113,6 +113,36 @@ struct AmidOthersConfig {
   }
 };
 
+/// Ends of what was seen beyond which one of its sides goes on in its line: a pillar hides a part
+/// of the vehicle, or a load bed was taken for something else.
+struct GoesOnConfig {
+  double near_m = 0.1;
+  double reach_m = 1.0;
+  double step_m = 0.15;
+  double aside_m = 0.1;
+  double lowest_m = 0.3;
+  double highest_m = 1.3;
+  int beams = 2;
+  double share = 0.45;
+  double sd_m = 0.7;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("near_m", near_m, {0, 2}, "m", "from the end: beyond its noise");
+    v.field("reach_m", reach_m, {0.1, 5}, "m", "from there: how far a side is followed beyond it");
+    v.field("step_m", step_m, {0.05, 1}, "m", "in steps of this length");
+    v.field("aside_m", aside_m, {0.01, 1}, "m", "of the side's line, to both sides");
+    v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: grass and kerbs");
+    v.field("highest_m", highest_m, {0.1, 3}, "m", "above the ground: of load beds");
+    v.field("beams", beams, {1, 1000}, "",
+            "that end in a step; of those kept (window.beam_stride)");
+    v.field("share", share, {0, 1}, "",
+            "of the steps, from which on the end is doubtful: a vehicle in line with it, half a "
+            "metre away, fills less");
+    v.field("sd_m", sd_m, {0, 10}, "m", "more standard deviation of such an end, as amid_others'");
+  }
+};
+
 struct VehicleNoiseConfig {
   double edge_m = 0.04;
   double edge_per_m = 0.003;
@@ -124,6 +154,7 @@ struct VehicleNoiseConfig {
   BeyondConfig beyond;
   SetbackConfig setback;
   AmidOthersConfig amid_others;
+  GoesOnConfig goes_on;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -140,6 +171,7 @@ struct VehicleNoiseConfig {
     v.group("beyond", beyond, "free space that shows an edge");
     v.group("setback", setback, "faces that no sensor looked at");
     v.group("amid_others", amid_others, "ends amid points of no object");
+    v.group("goes_on", goes_on, "ends beyond which a side goes on");
   }
 };
 
@@ -224,6 +256,9 @@ struct Sight {
   /// \param box in the frame of the points
   [[nodiscard]] int through(const objects::Cuboid& box) const {
     return beams.through(objects::transformed(T_level_local, box));
+  }
+  [[nodiscard]] int ended_in(const objects::Cuboid& box) const {
+    return beams.ended_in(objects::transformed(T_level_local, box));
   }
   [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const {
     return beams.nearest(objects::transformed(T_level_local, box), count, least_m);

@@ -140,6 +140,36 @@ TEST(PamsSize, ADiscoveredTargetIsFlownToAtTheFullPriceAlone) {
   EXPECT_EQ(goals(true), 0U);
 }
 
+/// A vehicle on the prior map that is well known, and one beside it whose length is not.
+struct BesideAPriorMap : Flight {
+  explicit BesideAPriorMap(const PamsConfig& pams) : Flight(policy_for(pams)) {
+    objects::ObjectMap map = map_of({car(40, -4), car(20, 5)});
+    for (objects::MapObject& object : map.objects) object.covariance = 1e-4 * Matrix9d::Identity();
+    map.objects[1].covariance(6, 6) = 0.25;
+    input.map = std::make_shared<const objects::ObjectMap>(map);
+  }
+
+  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams) {
+    const ActiveConfig config;
+    TargetList targets(config.targets, {}, map_of({car(40, -4)}));
+    targets.add(map_of({car(40, -4), car(20, 5)}).objects[1]);
+    return std::make_unique<PamsPolicy>(config, pams, std::move(targets), everywhere,
+                                        oblique_model(0), motion::LimitsConfig{});
+  }
+};
+
+TEST(PamsSize, ADiscoveredTargetBesideAPriorMapHasAPriceOfItsOwn) {
+  const auto goals = [](double discovered_price_per_s) {
+    PamsConfig config = easily_enough();
+    config.discovered_price_per_s = discovered_price_per_s;
+    BesideAPriorMap flight(config);
+    EXPECT_LT(flight.fly(600), 600);
+    return std::ranges::count(flight.goals, flight.target(1).id, &Viewpoint::target_id);
+  };
+  EXPECT_GT(goals(0.01), 0);
+  EXPECT_EQ(goals(10), 0);
+}
+
 TEST(PamsSize, PolicyPaperAsksForTheDeterminantAlone) {
   PamsConfig config = PamsConfig::paper();
   config.enough_entropy = 10;

@@ -32,6 +32,11 @@ TEST(Beams, ThatEndInABoxOrInFrontOfItDidNot) {
   EXPECT_EQ(two_beams({3, 0, 0}, {10, 5, 0}).through(box_at({5, 0, 0})), 0);
 }
 
+TEST(Beams, ThatEndInABoxAreCountedNoOthers) {
+  EXPECT_EQ(two_beams({5, 0, 0}, {10, 5, 0}).ended_in(box_at({5, 0, 0})), 1);
+  EXPECT_EQ(two_beams({3, 0, 0}, {10, 0, 0}).ended_in(box_at({5, 0, 0})), 0);
+}
+
 TEST(Beams, ThatPassBesideABoxDidNot) {
   const Beams beams = two_beams({10, 0, 0}, {10, 5, 0});
   EXPECT_EQ(beams.through(box_at({5, 0.8, 0})), 0);

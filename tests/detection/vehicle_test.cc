@@ -43,7 +43,8 @@ struct Scene {
     return points;
   }
 
-  [[nodiscard]] Beams beams() const {
+  /// \param hits  that beams meet beside the ground
+  [[nodiscard]] Beams beams(const std::vector<Eigen::Vector3d>& hits) const {
     core::Rng rng(6);
     Window window;
     window.sensors = {sensor};
@@ -52,6 +53,7 @@ struct Scene {
       if (sees(ground) && !hides(box, sensor, ground))
         window.beams.push_back({ground.cast<float>()});
     }
+    for (const Eigen::Vector3d& hit : hits) window.beams.push_back({hit.cast<float>()});
     Beams beams;
     beams.fill(window);
     return beams;
@@ -59,8 +61,9 @@ struct Scene {
 
   [[nodiscard]] VehicleFit fit() const { return fitted_to(points()); }
 
-  [[nodiscard]] VehicleFit fitted_to(const std::vector<BodyPoint>& points) const {
-    return fit_vehicle(points, {{sensor}, beams(), Surroundings({}), SE3::Identity()}, config);
+  [[nodiscard]] VehicleFit fitted_to(const std::vector<BodyPoint>& points,
+                                     const std::vector<Eigen::Vector3d>& hits = {}) const {
+    return fit_vehicle(points, {{sensor}, beams(hits), Surroundings({}), SE3::Identity()}, config);
   }
 };
 
@@ -152,6 +155,24 @@ TEST(Vehicle, EndThatIsHiddenIsNotKnown) {
   ASSERT_EQ(fit.status, VehicleStatus::fitted);
   EXPECT_GT(length_sd(fit), 0.5);
   EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * length_sd(fit));
+}
+
+TEST(Vehicle, EndBeyondWhichItsSideGoesOnIsDoubtful) {
+  const Scene scene{{0, -6, 3}, {.length = 3.8}};
+  const auto wall = [](double from, double to) {
+    std::vector<Eigen::Vector3d> hits;
+    for (double x = from; x < to; x += 0.05) {
+      for (const double z : {0.5, 0.8}) hits.emplace_back(x, -0.9, z);
+    }
+    return hits;
+  };
+  const auto sd = [&](const std::vector<Eigen::Vector3d>& hits) {
+    return length_sd(scene.fitted_to(scene.points(), hits));
+  };
+  EXPECT_LT(sd({}), 0.2);
+  EXPECT_GT(sd(wall(1.9, 2.9)), 0.5);  // labelled as something else
+  EXPECT_GT(sd(wall(2.4, 2.9)), 0.5);  // behind a pillar
+  EXPECT_LT(sd(wall(2.6, 3.5)), 0.2);  // a vehicle in line with it
 }
 
 TEST(Vehicle, LongerThanAnyOfItsClassMayEndFartherIn) {
