@@ -49,9 +49,12 @@ double top_of(const std::vector<BodyPoint>& points, double percentile) {
   return core::percentile(heights, percentile / 100);
 }
 
-SizePrior prior_of(int axis, const VehicleConfig& config) {
-  return axis == 0 ? SizePrior{config.length_m, config.length_sd_m}
-                   : SizePrior{config.width_m, config.width_sd_m};
+/// Of the length (axis 0) or the width of a vehicle with this top (m above the ground).
+SizePrior prior_of(int axis, double top, const VehicleConfig& config) {
+  if (axis == 1) return {config.width_m, config.width_sd_m};
+  const TallConfig& tall = config.tall;
+  const double higher = std::clamp(top, tall.from_m, tall.most_m) - tall.from_m;
+  return {config.length_m + tall.length_per_m * higher, config.length_sd_m};
 }
 
 /// Both axes' edges, given which of them is the length.
@@ -101,7 +104,7 @@ double doubt_amid_others(const std::vector<BodyPoint>& points, const objects::Cu
   return others > config.share * (others + static_cast<double>(own)) ? config.sd_m : 0;
 }
 
-Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& points,
+Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& points, double top,
                     const Sight& sight, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
   Edges edges = edges_of(footprint, sight, config.noise);
@@ -111,7 +114,7 @@ Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& po
   }
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {
-    const SizePrior prior = prior_of(k, config);
+    const SizePrior prior = prior_of(k, top, config);
     auto [low, high] = edges[k];
     const double size = footprint.size()[k];
     const double variance = std::pow(prior.sd, 2) + std::pow(low.sd, 2) + std::pow(high.sd, 2);
@@ -128,10 +131,10 @@ Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& po
 }
 
 /// The side that is longer need not be the length where one face alone was seen.
-Rectangle likelier(const Footprint& footprint, const std::vector<BodyPoint>& points,
+Rectangle likelier(const Footprint& footprint, const std::vector<BodyPoint>& points, double top,
                    const Sight& sight, const VehicleConfig& config) {
-  const Rectangle straight = rectangle(footprint, points, sight, config);
-  const Rectangle across = rectangle(turned(footprint), points, sight, config);
+  const Rectangle straight = rectangle(footprint, points, top, sight, config);
+  const Rectangle across = rectangle(turned(footprint), points, top, sight, config);
   return across.cost < straight.cost ? across : straight;
 }
 
@@ -229,7 +232,7 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
     fit.status = VehicleStatus::parted;
     return fit;
   }
-  const Rectangle best = likelier(footprint, points, sight, config);
+  const Rectangle best = likelier(footprint, points, top, sight, config);
   fit.cuboid = cuboid_of(best, top);
   fit.covariance = covariance_of(best, config.noise);
   fit.front_log_odds = front_log_odds(points, fit.motion, best, config);

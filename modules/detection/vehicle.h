@@ -175,6 +175,23 @@ struct VehicleNoiseConfig {
   }
 };
 
+/// A higher vehicle is a longer one: where the class's length says of a hidden end that it lies
+/// goes by the top that was seen. A low top may be all that was seen of a high vehicle: it says
+/// nothing.
+struct TallConfig {
+  double from_m = 1.5;
+  double most_m = 2.2;
+  double length_per_m = 1.4;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("from_m", from_m, {0, 10}, "m", "top of the class's mean: up to here nothing is added");
+    v.field("most_m", most_m, {0, 10}, "m", "from here on no more is: vans are of one length");
+    v.field("length_per_m", length_per_m, {0, 10}, "m/m",
+            "longer by that: a line through a dozen common makes, a Fiat 500 to a Sprinter");
+  }
+};
+
 struct VehicleConfig {
   double lowest_m = 0.2;
   double highest_m = 2.6;
@@ -188,6 +205,7 @@ struct VehicleConfig {
   double length_sd_m = 0.45;
   double width_m = 1.8;
   double width_sd_m = 0.12;
+  TallConfig tall;
   double prior_windows = 20;
   double thin_m = 0.05;
   double front_sd_m = 0.15;
@@ -213,6 +231,7 @@ struct VehicleConfig {
     v.field("length_sd_m", length_sd_m, {0.01, 10}, "m", "its standard deviation");
     v.field("width_m", width_m, {0.5, 5}, "m", "mean width of the class, for unseen sides");
     v.field("width_sd_m", width_sd_m, {0.01, 5}, "m", "its standard deviation");
+    v.group("tall", tall, "how the class's length goes by the top");
     v.field("prior_windows", prior_windows, {1, 10000}, "",
             "that say as much of the class's size as one of them: all say the same, and many that "
             "hide a side would outvote the few that saw both");

@@ -106,6 +106,14 @@ TEST(Vehicle, SeenFromBehindOnlyDoesNotClaimToKnowItsLength) {
   EXPECT_LT(std::abs(fit.cuboid.pose.translation().x() - 12), 2 * std::sqrt(fit.covariance(3, 3)));
 }
 
+TEST(Vehicle, HiddenEndOfAHighOneLiesFartherOut) {
+  const auto length = [](double height) {
+    return Scene{{0, 0, 1.2}, {.x = 12, .height = height}}.fit().cuboid.size.x();
+  };
+  EXPECT_NEAR(length(1.9) - length(1.5), 0.4 * TallConfig{}.length_per_m, 0.1);
+  EXPECT_NEAR(length(1.3), length(1.5), 0.05);
+}
+
 /// Leaves of a bush about a place in the frame of a box.
 void add_leaves(const MadeBox& box, const Eigen::Vector3d& middle, double radius, int count,
                 std::vector<BodyPoint>& points) {
