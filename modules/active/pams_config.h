@@ -76,8 +76,7 @@ struct PamsConfig {
             "ordered paths up to which all are weighed: 30 samples, 3 at a time; then a beam");
     v.field("beam", beam, {1, 1000}, "", "partial paths that the beam search keeps");
     v.field("dwell_s", dwell_s, {0, 60}, "s",
-            "in view from a cell of the model until it counts: its window has all points of it; "
-            "less than a second: one decision, two windows");
+            "in view from a cell of the model until it counts: one decision, two windows");
     v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
             "sd of x and y before the first view: half a car's width");
     v.field("prior_length_m", prior_length_m, {0.01, 10}, "m",
@@ -104,8 +103,7 @@ struct PamsConfig {
     v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
             "what a second of flight must bring beside it: the more, the shorter the mission");
     v.field("discovered_price_per_s", discovered_price_per_s, {0, 10}, "nat/s",
-            "the same for a target that the prior map, where there is one, does not have: what the "
-            "operator did not ask for may take half as long");
+            "the same for a target that the prior map, where there is one, does not have");
     v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
             "the same for a prior target where nothing brings so much and a size is not known");
     v.field("at_once", at_once, {1, 8}, "",
@@ -122,8 +120,7 @@ struct PamsConfig {
             "from which a target that is not in the map is looked for: behind what hides it, too");
     v.field("search_between", search_between, "", "the same as active.visit.between");
     v.field("window_s", window_s, {0, 60}, "s",
-            "in view from a cell until the map knows it better, for what is predicted: SLAM counts "
-            "a cell from its first window on");
+            "the same for what is predicted: SLAM counts a cell from its first window on");
     v.field("way_step_m", way_step_m, {0.1, 10}, "m",
             "at which it is asked what comes into view on the way: a third of the narrowest cell");
   }
