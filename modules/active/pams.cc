@@ -263,7 +263,7 @@ void PamsPolicy::add_ways(Choice& choice) const {
   problem.beam = pams_.beam;
 }
 
-/// nat/s.
+/// What a second of flight to a target must bring, nat/s.
 double PamsPolicy::price_of(int index) const {
   const bool has_prior =
       std::ranges::any_of(targets_.all(), [](const Target& target) { return !target.discovered; });

@@ -76,7 +76,7 @@ struct PamsConfig {
             "ordered paths up to which all are weighed: 30 samples, 3 at a time; then a beam");
     v.field("beam", beam, {1, 1000}, "", "partial paths that the beam search keeps");
     v.field("dwell_s", dwell_s, {0, 60}, "s",
-            "in view from a cell of the model until it counts: one decision, two windows");
+            "in view from a cell of the model until it counts; below a second one decision does");
     v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
             "sd of x and y before the first view: half a car's width");
     v.field("prior_length_m", prior_length_m, {0.01, 10}, "m",

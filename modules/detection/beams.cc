@@ -59,7 +59,7 @@ void Beams::fill(const Window& window) {
 }
 
 template <class Take>
-void Beams::for_each_in(const objects::Cuboid& box, const Take& take) const {
+void Beams::for_each_towards(const objects::Cuboid& box, const Take& take) const {
   if (box.size.minCoeff() <= 0) return;
   const Eigen::Isometry3f T_box_level = box.pose.inverse().cast<float>();
   const Eigen::Vector3f half = 0.5f * box.size.cast<float>();
@@ -74,11 +74,18 @@ void Beams::for_each_in(const objects::Cuboid& box, const Take& take) const {
     for (int b = middle - bins; b <= middle + bins; ++b) {
       const std::size_t at = scan * kBins + (b + kBins) % kBins;
       for (std::size_t i = first_[at]; i < first_[at + 1]; ++i) {
-        const Eigen::Vector3f to = T_box_level * ends_[i];
-        if (const auto in = passage(from, to, half)) take(from, to, *in);
+        take(from, T_box_level * ends_[i]);
       }
     }
   }
+}
+
+template <class Take>
+void Beams::for_each_in(const objects::Cuboid& box, const Take& take) const {
+  const Eigen::Vector3f half = 0.5f * box.size.cast<float>();
+  for_each_towards(box, [&](const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
+    if (const auto in = passage(from, to, half)) take(from, to, *in);
+  });
 }
 
 int Beams::through(const objects::Cuboid& box) const {
@@ -87,10 +94,16 @@ int Beams::through(const objects::Cuboid& box) const {
   return count;
 }
 
-int Beams::ended_in(const objects::Cuboid& box) const {
-  int count = 0;
-  for_each_in(box, [&](const auto&, const auto&, const Passage& in) { count += in.leave > 1; });
-  return count;
+int Beams::filled(const objects::Cuboid& box, int parts, int count) const {
+  const Eigen::Array3f half = 0.5f * box.size.cast<float>();
+  std::vector<int> ended(static_cast<std::size_t>(parts), 0);
+  for_each_towards(box, [&](const auto&, const Eigen::Vector3f& to) {
+    if ((to.array().abs() > half).any()) return;
+    const auto part =
+        static_cast<int>((to.x() + half.x()) / (2 * half.x()) * static_cast<float>(parts));
+    ++ended[static_cast<std::size_t>(std::min(part, parts - 1))];
+  });
+  return static_cast<int>(std::ranges::count_if(ended, [&](int n) { return n >= count; }));
 }
 
 double Beams::nearest(const objects::Cuboid& box, int count, double least_m) const {

@@ -18,8 +18,9 @@ class Beams {
   /// \return beams (of those that the window keeps) that entered it, left it and ended behind it.
   [[nodiscard]] int through(const objects::Cuboid& box) const;
 
-  /// \return beams (of those that the window keeps) that ended within it.
-  [[nodiscard]] int ended_in(const objects::Cuboid& box) const;
+  /// \return of that many equal parts of the box, one after another along its x axis, those in
+  /// which `count` beams and more ended.
+  [[nodiscard]] int filled(const objects::Cuboid& box, int parts, int count) const;
 
   /// How near to the low face of the box's x axis beams come within the box: what they met there,
   /// if anything, lies farther on.
@@ -29,6 +30,9 @@ class Beams {
   [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const;
 
  private:
+  /// Calls `take(from, to)` for each beam towards the box, in the box's frame.
+  template <class Take>
+  void for_each_towards(const objects::Cuboid& box, const Take& take) const;
   /// Calls `take(from, to, passage)` for each beam that enters the box, in the box's frame.
   template <class Take>
   void for_each_in(const objects::Cuboid& box, const Take& take) const;

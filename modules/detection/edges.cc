@@ -64,35 +64,6 @@ double free_from(const Footprint& footprint, int k, int end, const Sight& sight,
   return sight.nearest(box, config.beams, least_way_m);
 }
 
-/// The strip along one side's line, from one step beyond an end to the next.
-objects::Cuboid strip(const Footprint& footprint, int end, int side, double from,
-                      const GoesOnConfig& config) {
-  const double near = from + config.near_m, far = near + config.step_m;
-  const double at = side == 0 ? footprint.low.y() : footprint.high.y();
-  const Eigen::Vector2d x =
-      end == 0 ? Eigen::Vector2d(footprint.low.x() - far, footprint.low.x() - near)
-               : Eigen::Vector2d(footprint.high.x() + near, footprint.high.x() + far);
-  return upright(footprint.direction,
-                 {Eigen::Vector2d(x[0], at - config.aside_m), {x[1], at + config.aside_m}},
-                 {config.lowest_m, config.highest_m});
-}
-
-/// Added to the sd of an end beyond which one of the sides goes on in its line, whatever its points
-/// are taken for: something hid a part of it, or its labels are wrong.
-double doubt_where_side_goes_on(const Footprint& footprint, int end, const Sight& sight,
-                                const GoesOnConfig& config) {
-  const int steps = static_cast<int>(std::ceil(config.reach_m / config.step_m));
-  for (int side = 0; side < 2; ++side) {
-    int filled = 0;
-    for (int step = 0; step < steps; ++step) {
-      const objects::Cuboid box = strip(footprint, end, side, step * config.step_m, config);
-      filled += sight.ended_in(box) >= config.beams;
-    }
-    if (filled >= config.share * steps) return config.sd_m;
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::vector<Eigen::Vector2d> within(const Footprint& footprint,
@@ -143,7 +114,6 @@ Edges edges_of(const Footprint& footprint, const Sight& sight, const VehicleNois
       edge.position = end == 0 ? footprint.low[k] - outward : footprint.high[k] + outward;
       edge.sd = seen_sd + setback * noise.setback.sd_m +
                 std::min(edge.hidden_m / std::sqrt(12.0), noise.unseen_m);
-      if (k == 0) edge.sd += doubt_where_side_goes_on(footprint, end, sight, noise.goes_on);
     }
   }
   return edges;

@@ -104,12 +104,37 @@ double doubt_amid_others(const std::vector<BodyPoint>& points, const objects::Cu
   return others > config.share * (others + static_cast<double>(own)) ? config.sd_m : 0;
 }
 
+/// Along the line of the low or the high side, beyond an end.
+objects::Cuboid strip_beyond(const Footprint& footprint, int end, int side,
+                             const GoesOnConfig& config) {
+  const double reach = config.steps() * config.step_m;
+  const double from =
+      end == 0 ? footprint.low.x() - config.near_m - reach : footprint.high.x() + config.near_m;
+  const double at = side == 0 ? footprint.low.y() : footprint.high.y();
+  return upright(footprint.direction,
+                 {Eigen::Vector2d(from, at - config.aside_m), {from + reach, at + config.aside_m}},
+                 {config.lowest_m, config.highest_m});
+}
+
+/// Added to the sd of an end beyond which one of the sides goes on in its line, whatever its points
+/// are taken for: something hid a part of it, or its labels are wrong.
+double doubt_where_side_goes_on(const Footprint& footprint, int end, const Sight& sight,
+                                const GoesOnConfig& config) {
+  for (int side = 0; side < 2; ++side) {
+    const objects::Cuboid strip = strip_beyond(footprint, end, side, config);
+    const int filled = sight.filled(strip, config.steps(), config.beams);
+    if (filled >= config.share * config.steps()) return config.sd_m;
+  }
+  return 0;
+}
+
 Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& points, double top,
                     const Sight& sight, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
   Edges edges = edges_of(footprint, sight, config.noise);
   for (int end = 0; end < 2; ++end) {
     edges[0][end].sd +=
+        doubt_where_side_goes_on(footprint, end, sight, config.noise.goes_on) +
         doubt_amid_others(points, end_of(footprint, end, config), sight, config.noise.amid_others);
   }
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -16,9 +17,9 @@
 /// Reads points in the local ground's frame (z = 0 the ground), with the scan each came from, and
 /// what their beams went through. Motion, footprint (footprint.h), then the edges (edges.h): one
 /// beside which beams went on is measured; of one that was hidden the class's size says where it
-/// likely is, with a covariance that says so (interval.h); one amid points of no object is
-/// doubtful. What beams go through in the middle is more than one vehicle. The lower end is the
-/// front (paper, III-A).
+/// likely is, with a covariance that says so (interval.h); one amid points of no object, or
+/// beyond which a side goes on, is doubtful. What beams go through in the middle is more than one
+/// vehicle. The lower end is the front (paper, III-A).
 namespace saker::detection {
 
 /// The space beside an edge in which beams show that the vehicle ends there.
@@ -126,6 +127,8 @@ struct GoesOnConfig {
   double share = 0.45;
   double sd_m = 0.7;
 
+  [[nodiscard]] int steps() const { return static_cast<int>(std::ceil(reach_m / step_m)); }
+
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("near_m", near_m, {0, 2}, "m", "from the end: beyond its noise");
@@ -175,9 +178,8 @@ struct VehicleNoiseConfig {
   }
 };
 
-/// A higher vehicle is a longer one: where the class's length says of a hidden end that it lies
-/// goes by the top that was seen. A low top may be all that was seen of a high vehicle: it says
-/// nothing.
+/// A higher vehicle is a longer one: the class's length, for a hidden end, goes by the top that was
+/// seen. A low top may be all that was seen of a high vehicle: it says nothing.
 struct TallConfig {
   double from_m = 1.5;
   double most_m = 2.2;
@@ -276,8 +278,8 @@ struct Sight {
   [[nodiscard]] int through(const objects::Cuboid& box) const {
     return beams.through(objects::transformed(T_level_local, box));
   }
-  [[nodiscard]] int ended_in(const objects::Cuboid& box) const {
-    return beams.ended_in(objects::transformed(T_level_local, box));
+  [[nodiscard]] int filled(const objects::Cuboid& box, int parts, int count) const {
+    return beams.filled(objects::transformed(T_level_local, box), parts, count);
   }
   [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const {
     return beams.nearest(objects::transformed(T_level_local, box), count, least_m);

@@ -32,9 +32,11 @@ TEST(Beams, ThatEndInABoxOrInFrontOfItDidNot) {
   EXPECT_EQ(two_beams({3, 0, 0}, {10, 5, 0}).through(box_at({5, 0, 0})), 0);
 }
 
-TEST(Beams, ThatEndInABoxAreCountedNoOthers) {
-  EXPECT_EQ(two_beams({5, 0, 0}, {10, 5, 0}).ended_in(box_at({5, 0, 0})), 1);
-  EXPECT_EQ(two_beams({3, 0, 0}, {10, 0, 0}).ended_in(box_at({5, 0, 0})), 0);
+TEST(Beams, ThatEndInABoxFillItsPartsNoOthers) {
+  EXPECT_EQ(two_beams({5.5, 0, 0}, {10, 5, 0}).filled(box_at({5, 0, 0}), 4, 1), 1);
+  EXPECT_EQ(two_beams({3, 0, 0}, {10, 0, 0}).filled(box_at({5, 0, 0}), 4, 1), 0);
+  EXPECT_EQ(two_beams({4.1f, 0, 0}, {5.9f, 0, 0}).filled(box_at({5, 0, 0}), 4, 1), 2);
+  EXPECT_EQ(two_beams({4.1f, 0, 0}, {5.9f, 0, 0}).filled(box_at({5, 0, 0}), 1, 2), 1);
 }
 
 TEST(Beams, ThatPassBesideABoxDidNot) {
