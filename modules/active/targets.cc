@@ -90,7 +90,7 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
     target.id = object.id;
     target.class_id = object.class_id;
     target.extent = prior_extent(object, config);
-    target.prior_place = target.place();
+    target.expected_place = target.place();
     if (!is_known(object, config.known_sd_m)) continue;
     target.status = TargetStatus::visited;
     target.reason = "known well beforehand";
@@ -106,19 +106,19 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
     throw Error("prior map: " + std::to_string(size()) + " targets, expected at most " +
                 std::to_string(config.most_targets) + " (active.targets.most_targets)");
   }
-  for (const Target& target : targets_) prior_extent_.push_back(target.extent);
+  for (const Target& target : targets_) rough_extent_.push_back(target.extent);
 }
 
 double TargetList::distance(const Target& target, const MapObject& object) const {
   if (target.absent || object.class_id != target.class_id) return kNever;
   if (target.status == TargetStatus::unreachable && !target.mapped()) return kNever;
   const Cuboid mapped = cuboid_of(object.model);
-  const Eigen::Vector3d between = mapped.pose.translation() - target.prior_place;
+  const Eigen::Vector3d between = mapped.pose.translation() - target.expected_place;
   if (!mapped.pose.matrix().allFinite() || !mapped.size.allFinite()) return kNever;
   if (std::abs(between.z()) > config_.height_gate_m) return kNever;
-  const double distance = between.head<2>().norm();
-  if (distance > config_.gate_m) return kNever;
   const bool its_own = object.id == target.object_id;
+  const double distance = between.head<2>().norm();
+  if (distance > (target.stood && !its_own ? config_.stood_gate_m : config_.gate_m)) return kNever;
   return its_own ? std::max(distance - config_.keep_m, 0.0) : distance;
 }
 
@@ -157,15 +157,20 @@ void TargetList::attach(int index, const MapObject* object, bool complete) {
   target.object_id = mapped ? object->id : -1;
   target.incomplete_id = object && !complete ? object->id : -1;
   target.covariance = mapped ? planar(*object) : Covariance();
-  target.extent = object ? cuboid_of(object->model) : prior_extent_[index];
+  target.extent = object ? cuboid_of(object->model) : rough_extent_[index];
   if (target.status == TargetStatus::done || target.status == TargetStatus::visited) {
     target.status = mapped ? TargetStatus::done : TargetStatus::visited;
   }
 }
 
 void TargetList::close(int index, TargetStatus status, std::string reason) {
-  targets_[index].status = status;
-  targets_[index].reason = std::move(reason);
+  Target& target = targets_[index];
+  target.status = status;
+  target.reason = std::move(reason);
+  if (!target.mapped()) return;
+  target.stood = true;
+  target.expected_place = target.place();
+  rough_extent_[index].pose.translation() = target.place();
 }
 
 int TargetList::add(const MapObject& object) {
@@ -173,8 +178,8 @@ int TargetList::add(const MapObject& object) {
   target.id = next_id_++;
   target.class_id = object.class_id;
   target.discovered = true;
-  prior_extent_.push_back(prior_extent(object, config_));
-  target.prior_place = prior_extent_.back().pose.translation();
+  rough_extent_.push_back(prior_extent(object, config_));
+  target.expected_place = rough_extent_.back().pose.translation();
   attach(size() - 1, &object, true);
   ++revision_;
   return size() - 1;

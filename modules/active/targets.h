@@ -14,6 +14,7 @@ namespace saker::active {
 struct TargetsConfig {
   double gate_m = 6.0;
   double height_gate_m = 3.0;
+  double stood_gate_m = 2.0;
   double keep_m = 1.5;
   double prior_margin_m = 0.5;
   double known_sd_m = 0.1;
@@ -25,6 +26,9 @@ struct TargetsConfig {
     v.field("gate_m", gate_m, {0.1, 50}, "m",
             "in x-y between prior and mapped place: three deviations of a prior of 2 m");
     v.field("height_gate_m", height_gate_m, {0.1, 50}, "m", "the same in z: about a storey");
+    v.field("stood_gate_m", stood_gate_m, {0.1, 50}, "m",
+            "in x-y from where a closed target's object stood, once that has left the map: less "
+            "than to a neighbour");
     v.field("keep_m", keep_m, {0, 20}, "m",
             "by which another object must be nearer, in sum, for targets to swap theirs");
     v.field("prior_margin_m", prior_margin_m, {0, 10}, "m",
@@ -56,7 +60,9 @@ struct Target {
   objects::ClassId class_id = 0;
   objects::Cuboid extent;  ///< world: its object's, or else the prior's with its margin
   Covariance covariance;   ///< of its mapped object, given the poses; empty without one
-  Eigen::Vector3d prior_place = Eigen::Vector3d::Constant(NAN);  ///< world, m
+  /// World, m: the prior's, or where its object stood when it was closed.
+  Eigen::Vector3d expected_place = Eigen::Vector3d::Constant(NAN);
+  bool stood = false;      ///< the latter
   int object_id = -1;      ///< the mapped object's; −1: none yet
   int incomplete_id = -1;  ///< of an object there of which nobody saw how long it is; −1: none
   TargetStatus status = TargetStatus::pending;
@@ -79,10 +85,11 @@ class TargetList {
              const objects::ObjectMap& prior);
 
   /// Gives each target the mapped object of its class that it is: one to one, the most pairs in the
-  /// gate, of those the nearest. A target whose object has left the map has none again. A closed
-  /// one keeps its object, for another may not have been looked at; an unreachable one takes none.
-  /// An incomplete object may be a target's as well, which then takes no neighbour's: it is not
-  /// mapped by it, but known to be about there.
+  /// gate, of those the nearest. A target whose object has left the map has none again; a closed
+  /// one takes only what stands in its stead, no neighbour. It keeps its object as long as that is
+  /// there, for another may not have been looked at; an unreachable one takes none. An incomplete
+  /// object may be a target's as well, which then takes no neighbour's: it is not mapped by it, but
+  /// known to be about there.
   void associate(const objects::ObjectMap& map);
 
   void close(int index, TargetStatus status, std::string reason);
@@ -110,7 +117,7 @@ class TargetList {
   int next_id_ = 0;
   int revision_ = 0;
   std::vector<Target> targets_;
-  std::vector<objects::Cuboid> prior_extent_;
+  std::vector<objects::Cuboid> rough_extent_;
 };
 
 }  // namespace saker::active

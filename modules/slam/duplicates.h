@@ -14,6 +14,7 @@ struct DuplicateConfig {
   double part_overlap = 0.6;
   double cylinder_distance_m = 0.5;
   double touching_m = 0.1;
+  double most_place_sd_m = 1.3;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -34,11 +35,15 @@ struct DuplicateConfig {
     v.field("touching_m", touching_m, {0, 10}, "m",
             "between the surfaces of two cylinders: a pole cannot stand in a trunk; the error of a "
             "radius");
+    v.field("most_place_sd_m", most_place_sd_m, {0.01, 10}, "m",
+            "of a measured vehicle's place, above which it may be a piece of any: half of what "
+            "lies between vehicles side by side");
   }
 };
 
 /// Counts for each cuboid whether a window measured on its ground two objects beside each other,
-/// neither of which it can be, or anything else.
+/// neither of which it can be, or anything else. Pieces of vehicles, whose place nobody saw, tell
+/// nothing.
 void count_on_ground(std::vector<Landmark>& landmarks, std::span<const Candidate> candidates,
                      const DuplicateConfig& config);
 

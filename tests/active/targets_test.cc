@@ -138,6 +138,20 @@ TEST(Targets, ClosedOneKeepsItsObjectWhenANearerOneIsMapped) {
   EXPECT_EQ(targets[1].object_id, 8);
 }
 
+TEST(Targets, ClosedOneWhoseObjectLeftTheMapTakesWhatStandsInItsSteadNoNeighbour) {
+  TargetList targets = targets_at({car(0, 0)});
+  targets.associate(map_of({car(1, 0)}));
+  targets.close(0, TargetStatus::done, "");
+  objects::ObjectMap map = map_of({car(4, 0)});
+  map.objects[0].id = 7;
+  targets.associate(map);
+  EXPECT_FALSE(targets[0].mapped());
+  EXPECT_DOUBLE_EQ(targets[0].place().x(), 1);
+  map.objects.push_back(vehicle(8, car(0.5, 0.5)));
+  targets.associate(map);
+  EXPECT_EQ(targets[0].object_id, 8);
+}
+
 TEST(Targets, PendingOnesSwapTheirObjectsOnlyWhenThatIsClearlyBetter) {
   TargetList targets = targets_at({car(0, 0), car(0, 3)});
   objects::ObjectMap map = map_of({car(1, 1.4), car(1, 1.6)});

@@ -35,12 +35,15 @@ struct Scene {
     for (const auto& m : measurements) candidates.push_back({&m, {m.model, {}}, m.model, 10});
     return associate(candidates, landmarks, kTable, {});
   }
-  /// A window that measured these, and nothing else.
-  void window(const std::vector<Cuboid>& cars) {
+  /// A window that measured these, their faces to `sd` m, and nothing else.
+  void window(const std::vector<Cuboid>& cars, double sd = 0.3) {
     measurements.clear();
     for (const Cuboid& one : cars) measure(one, kVehicle);
+    const Eigen::MatrixXd covariance = sd * sd * Eigen::MatrixXd::Identity(9, 9);
     std::vector<Candidate> candidates;
-    for (const auto& m : measurements) candidates.push_back({&m, {m.model, {}}, m.model, 10});
+    for (const auto& m : measurements) {
+      candidates.push_back({&m, {m.model, covariance}, m.model, 10});
+    }
     count_on_ground(landmarks, candidates, {});
   }
   void measure(const Model& model, objects::ClassId id) {
@@ -139,6 +142,16 @@ TEST(Duplicates, AVehicleIsOneHoweverItsNeighbourIsMeasured) {
   scene.window({across});
   EXPECT_EQ(scene.landmarks[0].seen_as_one, 11);
   EXPECT_EQ(scene.landmarks[0].seen_as_two, 0);
+}
+
+TEST(Duplicates, PiecesWhosePlaceNobodySawAreNoTwoVehicles) {
+  Scene scene;
+  scene.landmarks = {landmark_at(0, car(0, 0, 0), kVehicle)};
+  const Cuboid front = car(1.6, 0, std::numbers::pi / 2), back = car(-1.5, -0.6, 0.5 * 3.1);
+  for (int i = 0; i < 5; ++i) scene.window({front, back}, 2);
+  EXPECT_FALSE(lies_across_two(scene.landmarks[0], {}));
+  for (int i = 0; i < 5; ++i) scene.window({front, back}, 0.5);
+  EXPECT_TRUE(lies_across_two(scene.landmarks[0], {}));
 }
 
 TEST(Duplicates, AVehicleInPiecesIsOne) {
