@@ -122,6 +122,14 @@ bool contradicts(const Observation& observation, int length_axis, double least_e
          covariance(7 - length_axis, 7 - length_axis);
 }
 
+/// The least of the values, leaving out the `left_out` lowest.
+double least(std::vector<double>& values, std::size_t left_out) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(std::min(left_out, values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
 }  // namespace
 
 void SeenEnds::see(const Eigen::Vector2d& sds) {
@@ -292,17 +300,22 @@ bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& co
 bool moves(const Landmark& landmark, const LandmarkConfig& config) {
   if (landmark.recent.size() < 2) return false;
   const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
+  std::array<std::vector<double>, 2> low, high;
   double longest = config.vehicle_length_m;
   for (const Footprint& footprint : landmark.recent) {
-    const Eigen::Vector2d centre = (T_cuboid_world * footprint.centre).head<2>();
-    const Eigen::Vector2d half =
-        0.5 * footprint.size - config.sure_sd * Eigen::Vector2d::Constant(footprint.sd);
-    low = low.cwiseMin(centre - half);
-    high = high.cwiseMax(centre + half);
+    const Eigen::Vector3d centre = T_cuboid_world * footprint.centre;
+    for (const int axis : {0, 1}) {
+      const double half = 0.5 * footprint.size[axis] - config.sure_sd * footprint.sd;
+      low[axis].push_back(centre[axis] - half);
+      high[axis].push_back(-centre[axis] - half);
+    }
     longest = std::max(longest, footprint.size.maxCoeff());
   }
-  return (high - low).maxCoeff() > longest + config.moving_distance_m;
+  const std::size_t false_ones = landmark.seen > config.still_windows ? 1 : 0;
+  const auto covered = [&](int axis) {
+    return -least(low[axis], false_ones) - least(high[axis], false_ones);
+  };
+  return std::max(covered(0), covered(1)) > longest + config.moving_distance_m;
 }
 
 bool comes_back(const Landmark& landmark, const LandmarkConfig& config) {

@@ -216,6 +216,7 @@ void remember(Landmark& landmark, const Observation& observation);
 [[nodiscard]] bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config);
 
 /// Whether the footprints that were measured lately cover together more than one object: it moves.
+/// Of one that was seen to stand for long, a single window may have an end wrong.
 /// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
 [[nodiscard]] bool moves(const Landmark& landmark, const LandmarkConfig& config);
 

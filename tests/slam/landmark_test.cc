@@ -171,6 +171,13 @@ TEST(Landmark, MovesWhenItsFootprintsCoverMoreThanOneVehicle) {
   EXPECT_TRUE(moves(feed(car(8, 0, 0), kVehicle), kConfig));
 }
 
+TEST(Landmark, ThatStoodForLongDoesNotMoveByOneFalseWindow) {
+  Feed feed;
+  for (int i = 0; i <= kConfig.still_windows; ++i) feed(car(5, 0, 0), kVehicle);
+  EXPECT_FALSE(moves(feed(car(8, 0, 0), kVehicle), kConfig));
+  EXPECT_TRUE(moves(feed(car(8.5, 0, 0), kVehicle), kConfig));
+}
+
 TEST(Landmark, OfTwoVehiclesComesBackWhatDrivesAwayDoesNot) {
   Feed two, one;
   two(car(5, 0, 0), kVehicle);
