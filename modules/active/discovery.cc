@@ -115,7 +115,7 @@ void Discovery::dismiss_absent() {
     const bool vain = target.status == TargetStatus::visited && !target.absent;
     if (target.mapped() || !(vain || target.status == TargetStatus::pending)) continue;
     double& absent_s = absent_s_[static_cast<std::size_t>(i)];
-    const bool absent = !may_be_incomplete(target) && nothing_else_at(target.expected_place);
+    const bool absent = !may_be_incomplete(target) && nothing_else_at(target.expected_place());
     absent_s = absent ? absent_s + elapsed_s_ : 0;
     if (absent_s > config_.discovery.absent_s) list.dismiss(i, why_absent(target));
   }
@@ -123,7 +123,7 @@ void Discovery::dismiss_absent() {
 
 bool Discovery::may_be_incomplete(const Target& target) const {
   return map_ && std::ranges::any_of(map_->incomplete, [&](const MapObject& object) {
-           const Eigen::Vector3d between = objects::place(object.model) - target.expected_place;
+           const Eigen::Vector3d between = objects::place(object.model) - target.expected_place();
            return object.class_id == target.class_id &&
                   between.head<2>().norm() <= config_.targets.gate_m;
          });
@@ -154,7 +154,7 @@ std::string Discovery::why_absent(const Target& target) const {
   double nearest = config_.targets.gate_m;
   for (const Target& other : targets()) {
     if (!other.mapped() || other.class_id != target.class_id) continue;
-    const double away = (other.place() - target.expected_place).head<2>().norm();
+    const double away = (other.place() - target.expected_place()).head<2>().norm();
     if (away > nearest) continue;
     nearest = away;
     same = &other;

@@ -89,8 +89,7 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
     Target& target = targets_.emplace_back();
     target.id = object.id;
     target.class_id = object.class_id;
-    target.extent = prior_extent(object, config);
-    target.expected_place = target.place();
+    target.extent = target.expected = prior_extent(object, config);
     if (!is_known(object, config.known_sd_m)) continue;
     target.status = TargetStatus::visited;
     target.reason = "known well beforehand";
@@ -106,14 +105,13 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
     throw Error("prior map: " + std::to_string(size()) + " targets, expected at most " +
                 std::to_string(config.most_targets) + " (active.targets.most_targets)");
   }
-  for (const Target& target : targets_) rough_extent_.push_back(target.extent);
 }
 
 double TargetList::distance(const Target& target, const MapObject& object) const {
   if (target.absent || object.class_id != target.class_id) return kNever;
   if (target.status == TargetStatus::unreachable && !target.mapped()) return kNever;
   const Cuboid mapped = cuboid_of(object.model);
-  const Eigen::Vector3d between = mapped.pose.translation() - target.expected_place;
+  const Eigen::Vector3d between = mapped.pose.translation() - target.expected_place();
   if (!mapped.pose.matrix().allFinite() || !mapped.size.allFinite()) return kNever;
   if (std::abs(between.z()) > config_.height_gate_m) return kNever;
   const bool its_own = object.id == target.object_id;
@@ -157,7 +155,7 @@ void TargetList::attach(int index, const MapObject* object, bool complete) {
   target.object_id = mapped ? object->id : -1;
   target.incomplete_id = object && !complete ? object->id : -1;
   target.covariance = mapped ? planar(*object) : Covariance();
-  target.extent = object ? cuboid_of(object->model) : rough_extent_[index];
+  target.extent = object ? cuboid_of(object->model) : target.expected;
   if (target.status == TargetStatus::done || target.status == TargetStatus::visited) {
     target.status = mapped ? TargetStatus::done : TargetStatus::visited;
   }
@@ -169,8 +167,7 @@ void TargetList::close(int index, TargetStatus status, std::string reason) {
   target.reason = std::move(reason);
   if (!target.mapped()) return;
   target.stood = true;
-  target.expected_place = target.place();
-  rough_extent_[index].pose.translation() = target.place();
+  target.expected.pose.translation() = target.place();
 }
 
 int TargetList::add(const MapObject& object) {
@@ -178,8 +175,7 @@ int TargetList::add(const MapObject& object) {
   target.id = next_id_++;
   target.class_id = object.class_id;
   target.discovered = true;
-  rough_extent_.push_back(prior_extent(object, config_));
-  target.expected_place = rough_extent_.back().pose.translation();
+  target.expected = prior_extent(object, config_);
   attach(size() - 1, &object, true);
   ++revision_;
   return size() - 1;

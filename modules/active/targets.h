@@ -58,11 +58,12 @@ enum class TargetStatus {
 struct Target {
   int id = -1;  ///< of the prior map's object; of a discovered one: follows the prior's largest
   objects::ClassId class_id = 0;
-  objects::Cuboid extent;  ///< world: its object's, or else the prior's with its margin
+  /// World: the prior's with its margin; placed where its object stood when it was last closed or
+  /// put off, once there was one.
+  objects::Cuboid expected;
+  bool stood = false;      ///< whether there was
+  objects::Cuboid extent;  ///< world: its object's, or else `expected`
   Covariance covariance;   ///< of its mapped object, given the poses; empty without one
-  /// World, m: the prior's, or where its object stood when it was closed.
-  Eigen::Vector3d expected_place = Eigen::Vector3d::Constant(NAN);
-  bool stood = false;      ///< the latter
   int object_id = -1;      ///< the mapped object's; −1: none yet
   int incomplete_id = -1;  ///< of an object there of which nobody saw how long it is; −1: none
   TargetStatus status = TargetStatus::pending;
@@ -73,6 +74,7 @@ struct Target {
   [[nodiscard]] bool mapped() const { return object_id >= 0; }
   [[nodiscard]] bool incomplete() const { return incomplete_id >= 0; }
   [[nodiscard]] Eigen::Vector3d place() const { return extent.pose.translation(); }
+  [[nodiscard]] Eigen::Vector3d expected_place() const { return expected.pose.translation(); }
 };
 
 /// The targets in the order of their ids: the prior's, then those that were added. Objects of other
@@ -92,6 +94,7 @@ class TargetList {
   /// known to be about there.
   void associate(const objects::ObjectMap& map);
 
+  /// Also puts off (pending) and opens again. Remembers where a mapped target's object stands.
   void close(int index, TargetStatus status, std::string reason);
 
   /// A mapped object that is in no prior map becomes a target. \return its index, the last.
@@ -117,7 +120,6 @@ class TargetList {
   int next_id_ = 0;
   int revision_ = 0;
   std::vector<Target> targets_;
-  std::vector<objects::Cuboid> rough_extent_;
 };
 
 }  // namespace saker::active

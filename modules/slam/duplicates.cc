@@ -41,12 +41,6 @@ bool knows_more(const Landmark& a, const Landmark& b, const LandmarkConfig& conf
   return believed_a != believed(b, config) ? believed_a : a.seen > b.seen;
 }
 
-/// Whether it is known which of two neighbours was measured.
-bool place_is_known(const Candidate& candidate, const DuplicateConfig& config) {
-  const double variance = candidate.in_keyframe.covariance.block<2, 2>(3, 3).trace();
-  return variance <= config.most_place_sd_m * config.most_place_sd_m;
-}
-
 /// Boxes about parts of vehicles lie between neighbours, and hold windows of both: about a vehicle
 /// whose ends were seen they tell nothing.
 bool is_part_of(const Landmark& part, const Landmark& whole, const LandmarkConfig& config) {
@@ -64,7 +58,7 @@ void count_on_ground(std::vector<Landmark>& landmarks, std::span<const Candidate
     for (const Candidate& candidate : candidates) {
       const double shared = overlap(candidate.in_world, landmark.model);
       if (candidate.measurement->moving || shared <= config.cuboid_overlap) continue;
-      if (!place_is_known(candidate, config)) continue;
+      if (place_sd(candidate) > config.most_place_sd_m) continue;
       measured = true;
       if (shared < config.part_overlap) in_part.push_back(&candidate.in_world);
     }

@@ -53,8 +53,7 @@ void track(Landmark& landmark, const Model& in_world, const Candidate& candidate
   if (to_seconds(candidate.measurement->stamp - landmark.last_stamp) > config.track_s)
     recent.clear();
   if (recent.size() >= kRecentWindows) recent.erase(recent.begin());
-  const double sd = std::sqrt(candidate.in_keyframe.covariance.block<2, 2>(3, 3).trace());
-  recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>(), sd});
+  recent.push_back({cuboid->pose.translation(), cuboid->size.head<2>(), place_sd(candidate)});
 }
 
 void count(Landmark& landmark, const Candidate& candidate) {
@@ -122,15 +121,20 @@ bool contradicts(const Observation& observation, int length_axis, double least_e
          covariance(7 - length_axis, 7 - length_axis);
 }
 
-/// The least of the values, leaving out the `left_out` lowest.
-double least(std::vector<double>& values, std::size_t left_out) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(std::min(left_out, values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
+/// From the least of the low values to the greatest of the high ones, `false_ones` left out of
+/// each.
+double span(std::vector<double> low, std::vector<double> high, std::size_t false_ones) {
+  const std::size_t at = std::min(false_ones, low.size() - 1);
+  std::ranges::sort(low);
+  std::ranges::sort(high, std::ranges::greater());
+  return high[at] - low[at];
 }
 
 }  // namespace
+
+double place_sd(const Candidate& candidate) {
+  return std::sqrt(candidate.in_keyframe.covariance.block<2, 2>(3, 3).trace());
+}
 
 void SeenEnds::see(const Eigen::Vector2d& sds) {
   next = next.cwiseMin(best.cwiseMax(sds));
@@ -307,15 +311,14 @@ bool moves(const Landmark& landmark, const LandmarkConfig& config) {
     for (const int axis : {0, 1}) {
       const double half = 0.5 * footprint.size[axis] - config.sure_sd * footprint.sd;
       low[axis].push_back(centre[axis] - half);
-      high[axis].push_back(-centre[axis] - half);
+      high[axis].push_back(centre[axis] + half);
     }
     longest = std::max(longest, footprint.size.maxCoeff());
   }
   const std::size_t false_ones = landmark.seen > config.still_windows ? 1 : 0;
-  const auto covered = [&](int axis) {
-    return -least(low[axis], false_ones) - least(high[axis], false_ones);
-  };
-  return std::max(covered(0), covered(1)) > longest + config.moving_distance_m;
+  const double covered =
+      std::max(span(low[0], high[0], false_ones), span(low[1], high[1], false_ones));
+  return covered > longest + config.moving_distance_m;
 }
 
 bool comes_back(const Landmark& landmark, const LandmarkConfig& config) {

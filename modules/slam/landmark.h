@@ -46,9 +46,10 @@ struct LandmarkConfig {
             "from this distance on a sensor in flight does not look over an object");
     v.field("track_s", track_s, {0, 60}, "s",
             "for which a moving object that is out of sight is remembered");
-    v.field("still_windows", still_windows, {1, 1000}, "",
-            "in which what moved must stand before it counts as an object again: 10 s, longer than "
-            "most stops in traffic");
+    v.field(
+        "still_windows", still_windows, {1, 1000}, "",
+        "in which what moved must stand before it counts as an object again, and after which one "
+        "false window makes nothing move: 10 s, longer than most stops in traffic");
     v.field("still_m", still_m, {0, 5}, "m",
             "between windows: less is standing, the noise of a measured centre");
     v.field("square_elongation", square_elongation, {1, 10}, "",
@@ -108,6 +109,9 @@ struct Candidate {
   double shape_probability = 0;  ///< of all classes of its shape together
   int chain = 0;                 ///< of the keyframe, among those of the graph
 };
+
+/// Of where a cuboid was measured in x-y, m: of a piece of one, how far its middle may lie.
+[[nodiscard]] double place_sd(const Candidate& candidate);
 
 /// What one keyframe says about one object from one view cell; several measurements are fused.
 struct Observation {
@@ -216,7 +220,7 @@ void remember(Landmark& landmark, const Observation& observation);
 [[nodiscard]] bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config);
 
 /// Whether the footprints that were measured lately cover together more than one object: it moves.
-/// Of one that was seen to stand for long, a single window may have an end wrong.
+/// Of one that was measured for long, a single window may have an end wrong.
 /// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
 [[nodiscard]] bool moves(const Landmark& landmark, const LandmarkConfig& config);
 

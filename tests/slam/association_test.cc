@@ -35,7 +35,7 @@ struct Scene {
     for (const auto& m : measurements) candidates.push_back({&m, {m.model, {}}, m.model, 10});
     return associate(candidates, landmarks, kTable, {});
   }
-  /// A window that measured these, their faces to `sd` m, and nothing else.
+  /// A window that measured these, each number to `sd`, and nothing else.
   void window(const std::vector<Cuboid>& cars, double sd = 0.3) {
     measurements.clear();
     for (const Cuboid& one : cars) measure(one, kVehicle);
@@ -147,7 +147,8 @@ TEST(Duplicates, AVehicleIsOneHoweverItsNeighbourIsMeasured) {
 TEST(Duplicates, PiecesWhosePlaceNobodySawAreNoTwoVehicles) {
   Scene scene;
   scene.landmarks = {landmark_at(0, car(0, 0, 0), kVehicle)};
-  const Cuboid front = car(1.6, 0, std::numbers::pi / 2), back = car(-1.5, -0.6, 0.5 * 3.1);
+  const Cuboid front = car(1.6, 0, std::numbers::pi / 2),
+               back = car(-1.5, -0.6, std::numbers::pi / 2);
   for (int i = 0; i < 5; ++i) scene.window({front, back}, 2);
   EXPECT_FALSE(lies_across_two(scene.landmarks[0], {}));
   for (int i = 0; i < 5; ++i) scene.window({front, back}, 0.5);
