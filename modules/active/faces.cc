@@ -17,8 +17,7 @@ double hidden_sd(int axis, const Eigen::Vector2d& eye, const FacesConfig& config
 }  // namespace
 
 Covariance by_faces(const Covariance& covariance, double whole, const Eigen::Vector2d& eye,
-                    const Eigen::Vector2d& size, const FacesInView& in_view,
-                    const FacesConfig& config) {
+                    const Eigen::Vector2d& size, const FacesConfig& config) {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   for (int axis = 0; axis < 2; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
@@ -29,9 +28,7 @@ Covariance by_faces(const Covariance& covariance, double whole, const Eigen::Vec
       Eigen::Vector4d face = Eigen::Vector4d::Zero();
       face[axis] = sign;
       face[2 + axis] = 0.5;
-      const double variance = in_view(axis, sign > 0 ? 1 : 0)
-                                  ? face.dot(covariance * face) / windows + hidden * hidden
-                                  : config.occluded_m * config.occluded_m;
+      const double variance = face.dot(covariance * face) / windows + hidden * hidden;
       information += face * face.transpose() / variance;
     }
   }

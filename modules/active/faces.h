@@ -11,7 +11,6 @@ struct FacesConfig {
   double hidden_m = 0;
   double hidden_side_m = 0;
   double outside_m = 1;
-  double occluded_m = 1;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -24,24 +23,19 @@ struct FacesConfig {
             "bearing towards the ends, where the upper edges of both sides are in view");
     v.field("outside_m", outside_m, {0.01, 20}, "m",
             "that the sensor is outside of a face's plane: it looks at the face");
-    v.field("occluded_m", occluded_m, {0.01, 10}, "m",
-            "sd of a face that something else hides: as of an end that no window shows");
   }
 };
 
-/// Which faces across a box's axes nothing else hides: a row an axis, the low one first.
-using FacesInView = Eigen::Array<bool, 2, 2>;
-
 /// What a view tells of a box, face by face: each face that the eye looks at as well as the fitted
 /// model says of where it is, the others only as well as their upper edges do, and in those windows
-/// alone that show the box from end to end; of those that something else hides nothing. Views from
-/// one side, however many, do not tell where the other one is.
+/// alone that show the box from end to end. Views from one side, however many, do not tell where
+/// the other one is.
 /// \param covariance  of [x, y, length, width], m²: of a window that shows both ends
 /// \param whole       share of such windows
 /// \param eye         in the box's frame, m
 /// \param size        length and width, m
 [[nodiscard]] Covariance by_faces(const Covariance& covariance, double whole,
                                   const Eigen::Vector2d& eye, const Eigen::Vector2d& size,
-                                  const FacesInView& in_view, const FacesConfig& config);
+                                  const FacesConfig& config);
 
 }  // namespace saker::active

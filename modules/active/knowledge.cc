@@ -43,10 +43,8 @@ uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& targ
   const bool by_face = config.faces.hidden_m > 0 || config.faces.hidden_side_m > 0;
   if (by_face && !is_cylinder(target.class_id, model)) {
     const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
-    const FacesInView in_view =
-        model.in_view ? model.in_view(eye, target.extent) : FacesInView::Constant(true);
     prediction.covariance = by_faces(prediction.covariance, prediction.whole, in_box.head<2>(),
-                                     target.extent.size.head<2>(), in_view, config.faces);
+                                     target.extent.size.head<2>(), config.faces);
   } else {
     prediction.covariance /= prediction.whole;
   }

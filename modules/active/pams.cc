@@ -22,11 +22,7 @@ PamsPolicy::PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, Targe
     : VisitPolicy(searching(config, pams), std::move(targets), std::move(in_geofence)),
       pams_(pams),
       model_(std::move(model)),
-      limits_(limits) {
-  model_.in_view = [this](const Eigen::Vector3d& eye, const objects::Cuboid& box) {
-    return faces_in_view(eye, box, surroundings_, config_.viewpoints.own_margin_m);
-  };
-}
+      limits_(limits) {}
 
 void PamsPolicy::make_room(std::size_t targets) {
   VisitPolicy::make_room(targets);

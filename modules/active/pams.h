@@ -26,8 +26,7 @@ namespace saker::active {
 ///
 /// `saker` beyond the paper: a second of flight has its price, so that a path is flown when it
 /// brings more nat a second than that, with the way on to the next target taken into account; a
-/// viewpoint is weighed for the neighbours that it sees, too, by the faces that it looks at and
-/// that the occupancy block has nothing before; the drift of the pose lessens what
+/// viewpoint is weighed for the neighbours that it sees, too; the drift of the pose lessens what
 /// later views are worth; what all views have in common sets an end to what is worth flying; a
 /// better viewpoint replaces the one that is flown to; where the map knows less of a target than
 /// its views should have told, for they disagree, the map is believed; a length or width that it

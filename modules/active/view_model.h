@@ -3,13 +3,12 @@
 #include <functional>
 #include <memory>
 
-#include "active/faces.h"
 #include "uncertainty/regions.h"
 #include "uncertainty/uncertainty.h"
 
 namespace saker::active {
 
-/// What active mapping asks of the fitted models, and of the surroundings.
+/// What active mapping asks of the fitted models.
 struct ViewModel {
   /// What a measurement from this view is worth where it shows the object from end to end.
   std::function<uncertainty::Prediction(objects::ClassId, const uncertainty::View&)> predict;
@@ -17,8 +16,6 @@ struct ViewModel {
   std::function<Eigen::MatrixXd(objects::ClassId)> common;
   /// Whether the view lies in the region of high confidence ∩ low geometric uncertainty.
   std::function<bool(objects::ClassId, const uncertainty::View&)> in_region;
-  /// Which faces of a box nothing else hides from an eye (world); empty: nothing is hidden.
-  std::function<FacesInView(const Eigen::Vector3d& eye, const objects::Cuboid&)> in_view;
 };
 
 /// Throws Error where the model does not know a target class of the table.

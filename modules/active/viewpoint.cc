@@ -42,23 +42,6 @@ bool hidden(const Eigen::Vector3d& eye, const Eigen::Vector3d& point_in_target,
   return false;
 }
 
-/// Whether a face is in view from an eye, all in the target's frame.
-/// \param visible  whether a point at that share of half the length and of half the width is
-template <class Visible>
-bool face_in_view(int axis, double sign, const Eigen::Vector3d& eye, const Eigen::Vector3d& half,
-                  const Visible& visible) {
-  const int across = 1 - axis;
-  const auto edge = [&](double side) {
-    Eigen::Vector2d at;
-    at[axis] = sign;
-    at[across] = side;
-    return visible(at);
-  };
-  if (sign * eye[axis] > half[axis]) return edge(-1) + edge(0) + edge(1) >= 2;
-  if (std::abs(eye[across]) <= half[across]) return true;  // from above
-  return edge(eye[across] > 0 ? 1 : -1);
-}
-
 Viewpoint viewpoint_at(const Cuboid& target, double bearing, double distance, double height,
                        const FieldOfViewConfig& view) {
   Viewpoint viewpoint;
@@ -126,24 +109,6 @@ Refusal refusal_of(const Viewpoint& viewpoint, const Cuboid& target, const Viewp
   if (surroundings.blocked(eye, config.clearance_m)) return Refusal::occupied;
   const double visible = visible_share(eye, target, surroundings, config.own_margin_m);
   return visible < config.least_visible ? Refusal::hidden : Refusal::none;
-}
-
-FacesInView faces_in_view(const Eigen::Vector3d& eye, const Cuboid& target,
-                          const Surroundings& surroundings, double own_margin_m) {
-  FacesInView in_view = FacesInView::Constant(true);
-  if (!surroundings.grid) return in_view;
-  const Eigen::Vector3d half = 0.5 * target.size;
-  const Eigen::Vector3d in_target = target.pose.inverse() * eye;
-  const auto visible = [&](const Eigen::Vector2d& share) {
-    const Eigen::Vector2d at = kRayEdge * share.cwiseProduct(half.head<2>());
-    const Eigen::Vector3d point(at.x(), at.y(), (2 * kRayHeight - 1) * half.z());
-    return !hidden(eye, point, target, surroundings, own_margin_m);
-  };
-  for (const int axis : {0, 1}) {
-    in_view(axis, 0) = face_in_view(axis, -1, in_target, half, visible);
-    in_view(axis, 1) = face_in_view(axis, 1, in_target, half, visible);
-  }
-  return in_view;
 }
 
 std::vector<Candidate> sample_viewpoints(const Cuboid& target, int first_id,

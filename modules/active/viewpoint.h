@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "active/faces.h"
 #include "active/field_of_view.h"
 #include "core/config.h"
 #include "core/se3.h"
@@ -35,11 +34,6 @@ struct Surroundings {
 /// Cells of the target itself (within `own_margin_m`) and unknown ones hide nothing.
 [[nodiscard]] double visible_share(const Eigen::Vector3d& eye, const objects::Cuboid& target,
                                    const Surroundings& surroundings, double own_margin_m);
-
-/// Which faces no occupied cell hides, by rays to most of a face that the eye looks at, and to the
-/// edges that another one shares with those: where a side is seen to end.
-[[nodiscard]] FacesInView faces_in_view(const Eigen::Vector3d& eye, const objects::Cuboid& target,
-                                        const Surroundings& surroundings, double own_margin_m);
 
 /// A place to look from.
 struct Viewpoint {

@@ -8,7 +8,6 @@ namespace saker::active {
 namespace {
 
 const Eigen::Vector2d kSize(4.5, 1.8);
-const FacesInView kAll = FacesInView::Constant(true);
 constexpr double kHidden = 0.25;
 
 /// Of independent faces, 0.05 m each.
@@ -18,7 +17,7 @@ Covariance of_faces() {
 }
 
 Covariance seen_from(double x, double y, double whole = 1) {
-  return by_faces(of_faces(), whole, {x, y}, kSize, kAll, {.hidden_m = kHidden});
+  return by_faces(of_faces(), whole, {x, y}, kSize, {.hidden_m = kHidden});
 }
 
 /// Variance of the face on that side of an axis.
@@ -56,7 +55,7 @@ TEST(Faces, FromBesideNeitherEndIsLookedAt) {
 
 TEST(Faces, TheFarSideIsHiddenFromBesideAndHardlyFromAnEnd) {
   const auto far_side = [](double x, double y) {
-    return face(by_faces(of_faces(), 1, {x, y}, kSize, kAll, {.hidden_side_m = kHidden}), 1, -1);
+    return face(by_faces(of_faces(), 1, {x, y}, kSize, {.hidden_side_m = kHidden}), 1, -1);
   };
   EXPECT_NEAR(far_side(0, 7), 0.05 * 0.05 + kHidden * kHidden, 1e-9);
   EXPECT_NEAR(far_side(7, 7), 0.05 * 0.05 + kHidden * kHidden / 4, 1e-9);
@@ -69,16 +68,8 @@ TEST(Faces, ALookFromTheOtherSideTellsMoreThanOneMoreFromThisSide) {
   EXPECT_GT((first + across).determinant(), 4 * (first + beside).determinant());
 }
 
-TEST(Faces, OfOneThatSomethingElseHidesNothingIsTold) {
-  FacesInView in_view = kAll;
-  in_view(0, 1) = false;
-  const Covariance hidden = by_faces(of_faces(), 1, {8, -6}, kSize, in_view, {.occluded_m = 1});
-  EXPECT_NEAR(face(hidden, 0, 1), 1, 1e-9);
-  EXPECT_NEAR(face(hidden, 0, -1), 0.05 * 0.05, 1e-9);
-}
-
 TEST(Faces, WithoutHiddenOnesAreTheModels) {
-  EXPECT_TRUE(by_faces(of_faces(), 1, {8, -6}, kSize, kAll, {}).isApprox(of_faces(), 1e-9));
+  EXPECT_TRUE(by_faces(of_faces(), 1, {8, -6}, kSize, {}).isApprox(of_faces(), 1e-9));
 }
 
 }  // namespace

@@ -77,31 +77,6 @@ TEST(Visibility, IsNotTakenAwayByWhatWasNeverSeen) {
   EXPECT_EQ(visible_share({9, 0, 3}, car(0, 0), {&grid, SE3::Identity()}, 0.5), 1);
 }
 
-/// Of the faces across that axis, the low one first.
-std::pair<bool, bool> in_view(int axis, const Eigen::Vector3d& eye, const Surroundings& around) {
-  const FacesInView faces = faces_in_view(eye, car(0, 0), around, 0.5);
-  return {faces(axis, 0), faces(axis, 1)};
-}
-
-TEST(FacesInView, AreAllOfThemInTheOpen) {
-  auto grid = free_grid();
-  fill(grid, {-2.2, -0.9, 0}, {2.2, 0.9, 1.5});
-  const Surroundings around{&grid, SE3::Identity()};
-  for (double bearing = 0; bearing < 6; bearing += 0.5) {
-    const Eigen::Vector3d eye(9 * std::cos(bearing), 9 * std::sin(bearing), 3);
-    EXPECT_TRUE(faces_in_view(eye, car(0, 0), around, 0.5).all()) << bearing;
-  }
-}
-
-TEST(FacesInView, LackTheEndThatANeighbourHides) {
-  auto grid = free_grid();
-  fill(grid, {-1, 2, 0}, {5, 4, 2.5});
-  const Surroundings around{&grid, SE3::Identity()};
-  EXPECT_EQ(in_view(0, {-6, 8, 3}, around), std::pair(true, false)) << "where a side ends";
-  EXPECT_EQ(in_view(0, {-8, 0, 3}, around), std::pair(true, true)) << "from behind";
-  EXPECT_EQ(in_view(0, {-6, -8, 3}, around), std::pair(true, true)) << "from the other side";
-}
-
 TEST(Candidates, StandAroundTheTargetAndLookAtIt) {
   const objects::Cuboid target = car(3, -2, 0.4);
   const auto candidates = sample_viewpoints(target, 100, kConfig, kView, {}, kEverywhere);
