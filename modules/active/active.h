@@ -125,12 +125,21 @@ struct ActiveConfig {
   }
 };
 
+/// Where and when what is decided now begins to be flown: until then, what was committed before.
+struct ActiveStart {
+  Time stamp = 0;
+  SE3 T_world_body = SE3::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< world, m/s
+};
+
 /// What a decision is made from. `map` and `grid` may be absent at first.
 struct ActiveInput {
   Time stamp = 0;
   SE3 T_world_body = SE3::Identity();
   SE3 T_world_odom = SE3::Identity();
-  std::shared_ptr<const objects::ObjectMap> map;         ///< world
+  std::optional<ActiveStart> start;               ///< none: where the vehicle is
+  std::shared_ptr<const objects::ObjectMap> map;  ///< world
+  std::optional<Time> map_stamp;  ///< until when it holds what was measured; none: until now
   std::shared_ptr<const occupancy::OccupancyGrid> grid;  ///< odom
 };
 
@@ -145,6 +154,7 @@ struct Expectation {
   int viewpoint_id = -1;
   int target_id = -1;
   int object_id = -1;          ///< of the mapped object
+  Time seen_until = 0;         ///< its target from there, once it was flown to
   double gain = NAN;           ///< nat, off the entropies of all targets that are seen from there
   Eigen::MatrixXd covariance;  ///< after it, as uncertainty::Prediction's and with the common part
 };

@@ -98,4 +98,13 @@ double Knowledge::scatter_of(const Belief& map) const {
   return std::max(1.0, std::exp(2 * excess / static_cast<double>(common_.rows())));
 }
 
+Belief map_belief(const Target& target, const Looks& held, const Looks& until,
+                  const ViewModel& model, const PamsConfig& config) {
+  PamsConfig of_windows = config;
+  of_windows.dwell_s = config.window_s;
+  const Knowledge then(target, until, model, of_windows);
+  if (target.covariance.size() == 0) return then.belief();
+  return Knowledge(target, held, model, of_windows).expected(target.covariance, then);
+}
+
 }  // namespace saker::active

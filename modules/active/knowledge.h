@@ -48,6 +48,11 @@ class Knowledge {
   std::map<int, Eigen::Matrix4d> cells_;  ///< that count, and their information
 };
 
+/// What the map will know of the target when it holds the looks `until`; SLAM counts a cell from
+/// its first window on. \param held  of `until`, those that it holds by now
+[[nodiscard]] Belief map_belief(const Target& target, const Looks& held, const Looks& until,
+                                const ViewModel& model, const PamsConfig& config);
+
 /// [x, y, length, width] or [x, y] before the first view.
 [[nodiscard]] Covariance prior_covariance(const PamsConfig& config, bool cylinder);
 

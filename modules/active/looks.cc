@@ -5,6 +5,11 @@
 #include <numbers>
 
 namespace saker::active {
+namespace {
+
+constexpr std::size_t kMostAwaited = 30;  // a map that is later than so many decisions has stopped
+
+}  // namespace
 
 void Looks::add(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double seconds,
                 double flown_m) {
@@ -20,6 +25,29 @@ void Looks::add(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, doubl
   const double share = seconds / look->seconds;
   look->eye += share * (eye - look->eye);
   look->flown_m += share * (flown_m - look->flown_m);
+}
+
+double Looks::seconds_near(const Eigen::Vector3d& eye, double near_m) const {
+  double seconds = 0;
+  for (const Look& look : looks_) {
+    if ((look.eye - eye).norm() < near_m) seconds += look.seconds;
+  }
+  return seconds;
+}
+
+void LooksAndMap::add(Time until, const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                      double seconds, double flown_m) {
+  so_far_.add(eye, target, seconds, flown_m);
+  if (awaited_.size() >= kMostAwaited) map_holds(awaited_.front().until);
+  awaited_.push_back({until, eye, target, seconds, flown_m});
+}
+
+void LooksAndMap::map_holds(Time stamp) {
+  const auto late = std::ranges::find_if(awaited_, [&](auto& a) { return a.until > stamp; });
+  for (auto a = awaited_.begin(); a != late; ++a) {
+    in_map_.add(a->eye, a->target, a->seconds, a->flown_m);
+  }
+  awaited_.erase(awaited_.begin(), late);
 }
 
 }  // namespace saker::active

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/time.h"
+
 namespace saker::active {
 
 /// From where a target was in view, and for how long: facts of the flight, in bins of direction and
@@ -26,6 +28,9 @@ class Looks {
 
   [[nodiscard]] const std::vector<Look>& all() const { return looks_; }  ///< in the order of time
 
+  /// Seconds of those that lie within `near_m` of `eye`.
+  [[nodiscard]] double seconds_near(const Eigen::Vector3d& eye, double near_m) const;
+
   /// When the first of them began, m flown; NaN without any.
   [[nodiscard]] double first_m() const { return first_m_; }
 
@@ -34,6 +39,32 @@ class Looks {
   double range_step_m_;
   double first_m_ = NAN;
   std::vector<Look> looks_;  ///< at most one a bin: bearings × ranges in the field of view
+};
+
+/// The looks at a target so far, and those of them that a map, which is always late, holds by now.
+class LooksAndMap {
+ public:
+  explicit LooksAndMap(const Looks& none) : so_far_(none), in_map_(none) {}
+
+  /// As `Looks::add`. \param until when the look ended
+  void add(Time until, const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double seconds,
+           double flown_m);
+
+  /// The map holds what was measured until `stamp`.
+  void map_holds(Time stamp);
+
+  [[nodiscard]] const Looks& so_far() const { return so_far_; }
+  [[nodiscard]] const Looks& in_map() const { return in_map_; }
+
+ private:
+  struct Awaited {
+    Time until;
+    Eigen::Vector3d eye, target;  // world, m
+    double seconds, flown_m;
+  };
+
+  Looks so_far_, in_map_;
+  std::vector<Awaited> awaited_;  ///< in the order of time
 };
 
 }  // namespace saker::active

@@ -27,7 +27,7 @@ PamsPolicy::PamsPolicy(const ActiveConfig& config, const PamsConfig& pams, Targe
 void PamsPolicy::make_room(std::size_t targets) {
   VisitPolicy::make_room(targets);
   const ViewpointConfig& viewpoints = config_.viewpoints;
-  looks_.resize(targets, Looks(viewpoints.bearings, viewpoints.ring_step_m));
+  looks_.resize(targets, LooksAndMap(Looks(viewpoints.bearings, viewpoints.ring_step_m)));
   cells_.resize(targets, 0);
   views_.resize(targets, 0);
   sure_.resize(targets, false);
@@ -36,14 +36,22 @@ void PamsPolicy::make_room(std::size_t targets) {
 ActivePlan PamsPolicy::plan(const ActiveInput& input, const core::Budget& budget) {
   flown_.clear();
   reachability_.reset();
-  ActivePlan plan = VisitPolicy::plan(input, budget);
+  ActiveInput from_start = input;
+  now_ = input.stamp;
+  if (pams_.looked_from.from_start && input.start) {
+    now_ = input.start->stamp;
+    velocity_ = input.start->velocity;
+    from_start.T_world_body = input.start->T_world_body;
+  }
+  for (LooksAndMap& looks : looks_) looks.map_holds(input.map_stamp.value_or(now_));
+  ActivePlan plan = VisitPolicy::plan(from_start, budget);
   if (goal_ && flies_to(goal_->target)) plan.expected = expected_;
   plan.flown = flown_;
   return plan;
 }
 
 void PamsPolicy::look(int index) {
-  looks_[index].add(body_, targets_[index].place(), elapsed_s_, flown_m_);
+  looks_[index].add(now_, body_, targets_[index].place(), elapsed_s_, flown_m_);
   if (!targets_[index].mapped()) return VisitPolicy::look(index);
   const Knowledge known = known_of(index);
   if (known.cells() > cells_[index]) {
@@ -51,6 +59,7 @@ void PamsPolicy::look(int index) {
     saw_something_new(index);
   }
   if (has_flown_to(index, known)) {
+    expected_->seen_until = now_;
     flown_.push_back(*expected_);
     expected_.reset();
   }
@@ -64,7 +73,7 @@ void PamsPolicy::reconsider() {
   for (int index = 0; index < targets_.size(); ++index) {
     if (!sure_[index] || targets_[index].status == TargetStatus::pending) continue;
     if (sees(body_, yaw_, targets_[index], 0)) {
-      looks_[index].add(body_, targets_[index].place(), elapsed_s_, flown_m_);
+      looks_[index].add(now_, body_, targets_[index].place(), elapsed_s_, flown_m_);
     }
     if (stays_closed(index)) continue;
     sure_[index] = false;
@@ -114,7 +123,7 @@ void PamsPolicy::judge(Candidate& candidate, int index) const {
   const Eigen::Vector3d& place = candidate.viewpoint.position;
   candidate.cost_m = (body_ - place).norm();
   if (candidate.refusal != Refusal::none) return;
-  const double since_m = flown_m_ + candidate.cost_m - looks_[index].first_m();
+  const double since_m = flown_m_ + candidate.cost_m - looks_[index].so_far().first_m();
   if (was_given_up(index, candidate.viewpoint)) {
     candidate.refusal = Refusal::motion;
   } else if (!reachability_->reaches(place)) {
@@ -174,7 +183,7 @@ PamsPolicy::Choice PamsPolicy::choice_among(int index, const std::vector<int>& s
   for (const int target : choice.together) {
     choice.known.push_back(known_of(target));
     choice.problem.objects.push_back(belief_of(target, choice.known.back()));
-    const double since_m = flown_m_ - looks_[target].first_m();
+    const double since_m = flown_m_ - looks_[target].so_far().first_m();
     choice.problem.drifted_m.push_back(std::isfinite(since_m) ? since_m : 0);
   }
   const auto weigh = [&](Candidate& candidate) {
@@ -227,7 +236,9 @@ std::vector<Sight> PamsPolicy::sights(const Viewpoint& from, const Choice& choic
     const Target& target = targets_[choice.together[object]];
     if (object > 0 && !sees(eye, from.yaw, target, config_.view.margin_deg)) continue;
     const uncertainty::Prediction prediction = predicted(eye, target, model_, pams_);
-    if (choice.known[object].counted(prediction.cell)) continue;
+    const double near_s =
+        looks_[choice.together[object]].so_far().seconds_near(eye, pams_.looked_from.near_m);
+    if (choice.known[object].counted(prediction.cell) || near_s >= pams_.dwell_s) continue;
     told.push_back({object, prediction.cell, prediction.covariance});
   }
   return told;
@@ -246,7 +257,7 @@ void PamsPolicy::add_ways(Choice& choice) const {
   for (int i = 0; i < count; ++i) {
     const Viewpoint& a = choice.samples[i].viewpoint;
     problem.to_m[i] = (a.position - body_).norm();
-    problem.to_s[i] = seconds(body_, a.position, a.yaw - yaw_);
+    problem.to_s[i] = flight_time_s(a.position - body_, a.yaw - yaw_, limits_, velocity_);
     if (next) problem.on_s[i] = seconds(a.position, *next, 0);
     for (int j = 0; j < count; ++j) {
       const Viewpoint& b = choice.samples[j].viewpoint;
@@ -254,7 +265,7 @@ void PamsPolicy::add_ways(Choice& choice) const {
       problem.between_s(i, j) = seconds(a.position, b.position, b.yaw - a.yaw);
     }
   }
-  if (next) problem.direct_s = seconds(body_, *next, 0);
+  if (next) problem.direct_s = flight_time_s(*next - body_, 0, limits_, velocity_);
   problem.dwell_s = pams_.dwell_s;
   problem.drift_m = pams_.drift_counts ? pams_.drift_m : 0;
   problem.price_per_s = price_of(choice.together.front());
@@ -293,7 +304,9 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   const int index = choice.together.front();
   const Target& target = targets_[index];
   const Eigen::MatrixXd common = model_.common(target.class_id);
-  Eigen::Matrix4d covariance = expected_of(viewpoint, index).covariance();
+  const Belief then =
+      map_belief(target, looks_[index].in_map(), looks_until(viewpoint, index), model_, pams_);
+  Eigen::Matrix4d covariance = then.covariance();
   if (!pams_.common_counts) covariance.topLeftCorner(common.rows(), common.cols()) += common;
   Expectation expected;
   expected.viewpoint_id = viewpoint.id;
@@ -304,17 +317,6 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   expected_ = expected;
 }
 
-/// Of the current target, by what the map knows of it now.
-Belief PamsPolicy::expected_of(const Viewpoint& viewpoint, int index) const {
-  const Target& target = targets_[index];
-  PamsConfig config = pams_;
-  config.dwell_s = pams_.window_s;
-  const Knowledge now(target, looks_[index], model_, config);
-  const Knowledge then(target, looks_until(viewpoint, index), model_, config);
-  const bool in_map = target.covariance.size() > 0;
-  return in_map ? now.expected(target.covariance, then) : then.belief();
-}
-
 /// With those of the straight way there, on which other sides come by.
 Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
   const Target& target = targets_[index];
@@ -322,7 +324,7 @@ Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
   const double turn = std::remainder(viewpoint.yaw - yaw_, 2 * std::numbers::pi);
   const int steps = static_cast<int>(std::ceil(way.norm() / pams_.way_step_m));
   const double seconds = flight_time_s(way, turn, limits_) / std::max(steps, 1);
-  Looks looks = looks_[index];
+  Looks looks = looks_[index].so_far();
   for (int step = 0; step < steps; ++step) {
     const double share = (step + 0.5) / steps;
     const Eigen::Vector3d eye = body_ + share * way;
@@ -335,14 +337,19 @@ Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
 
 /// What its views should tell, or what the map has where that is less.
 Belief PamsPolicy::belief_of(int index, const Knowledge& known) const {
-  const Covariance& in_map = targets_[index].covariance;
-  if (!pams_.map_counts || in_map.size() == 0) return known.belief();
-  const Belief told = known.of_map(in_map);
-  return told.entropy() > known.belief().entropy() ? told : known.belief();
+  if (!pams_.map_counts || targets_[index].covariance.size() == 0) return known.belief();
+  const Belief in_map = belief_in_map(index);
+  return in_map.entropy() > known.belief().entropy() ? in_map : known.belief();
+}
+
+/// What the map has of it, or is about to: it does not yet hold what was seen last.
+Belief PamsPolicy::belief_in_map(int index) const {
+  const LooksAndMap& looks = looks_[index];
+  return map_belief(targets_[index], looks.in_map(), looks.so_far(), model_, pams_);
 }
 
 Knowledge PamsPolicy::known_of(int index) const {
-  return Knowledge(targets_[index], looks_[index], model_, pams_);
+  return Knowledge(targets_[index], looks_[index].so_far(), model_, pams_);
 }
 
 bool PamsPolicy::enough(int index, const Knowledge& known) const {
@@ -356,8 +363,7 @@ bool PamsPolicy::enough(int index, const Knowledge& known) const {
 bool PamsPolicy::size_is_known(int index, const Knowledge& known, double share) const {
   const Target& target = targets_[index];
   if (model_.common(target.class_id).rows() < 4) return true;
-  const Covariance& in_map = target.covariance;
-  const Belief belief = in_map.size() == 0 ? known.belief() : known.of_map(in_map);
+  const Belief belief = target.covariance.size() == 0 ? known.belief() : belief_in_map(index);
   const Eigen::Vector2d variances = belief.covariance().diagonal().tail<2>();
   return std::sqrt(variances.maxCoeff()) <= share * pams_.most_size_sd_m;
 }
@@ -384,7 +390,7 @@ std::string PamsPolicy::why_none(int index) const {
 
 std::string PamsPolicy::seen_from(int index) const {
   if (cells_[index] > 0) return "seen from " + std::to_string(cells_[index]) + " cells";
-  const bool in_passing = targets_[index].mapped() && !looks_[index].all().empty();
+  const bool in_passing = targets_[index].mapped() && !looks_[index].so_far().all().empty();
   return in_passing ? "seen in passing" : VisitPolicy::seen_from(index);
 }
 

@@ -71,10 +71,10 @@ class PamsPolicy : public VisitPolicy {
   [[nodiscard]] double price_of(int index) const;
   [[nodiscard]] std::optional<Path> best_path(const Choice& choice) const;
   void expect(const Choice& choice, const Path& path);
-  [[nodiscard]] Belief expected_of(const Viewpoint& viewpoint, int index) const;
   [[nodiscard]] Looks looks_until(const Viewpoint& viewpoint, int index) const;
   [[nodiscard]] Knowledge known_of(int index) const;
   [[nodiscard]] Belief belief_of(int index, const Knowledge& known) const;
+  [[nodiscard]] Belief belief_in_map(int index) const;
   [[nodiscard]] bool enough(int index, const Knowledge& known) const;
   [[nodiscard]] bool size_is_known(int index, const Knowledge& known, double share) const;
   [[nodiscard]] double class_probability(const Target& target) const;
@@ -82,13 +82,15 @@ class PamsPolicy : public VisitPolicy {
   PamsConfig pams_;
   ViewModel model_;
   motion::LimitsConfig limits_;
-  std::vector<Looks> looks_;                  ///< one a target, as the next three
-  std::vector<int> cells_;                    ///< the most that ever counted
-  std::vector<int> views_;                    ///< viewpoints flown
-  std::vector<bool> sure_;                    ///< known well enough when last asked
-  std::optional<Reachability> reachability_;  ///< of this decision
-  std::optional<Expectation> expected_;       ///< of the goal
-  std::vector<Expectation> flown_;            ///< in this decision
+  Time now_ = 0;  ///< when the vehicle is where this decision takes it to be
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< world, m/s, there; none by default
+  std::vector<LooksAndMap> looks_;                      ///< one a target, as the next three
+  std::vector<int> cells_;                              ///< the most that ever counted
+  std::vector<int> views_;                              ///< viewpoints flown
+  std::vector<bool> sure_;                              ///< known well enough when last asked
+  std::optional<Reachability> reachability_;            ///< of this decision
+  std::optional<Expectation> expected_;                 ///< of the goal
+  std::vector<Expectation> flown_;                      ///< in this decision
 };
 
 }  // namespace saker::active

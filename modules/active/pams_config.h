@@ -6,6 +6,22 @@
 
 namespace saker::active {
 
+/// When a viewpoint counts as one that was looked from.
+struct LookedFromConfig {
+  bool from_start = false;
+  double near_m = 0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("from_start", from_start, "",
+            "whether the vehicle is taken to be where what is decided now begins to be flown: what "
+            "is committed is as good as flown, so that it need not stop at a viewpoint");
+    v.field("near_m", near_m, {0, 10}, "m",
+            "around where a target was in view for a dwell, nothing new is told of it, whatever "
+            "the cell: an estimate that trembles moves the cells' borders");
+  }
+};
+
 /// One method, PAMS, with two sets of defaults: `paper` as the paper has it, `saker` beyond it.
 struct PamsConfig {
   Sampling sampling = Sampling::centroids;
@@ -14,6 +30,7 @@ struct PamsConfig {
   double most_paths = 25000;
   int beam = 60;
   double dwell_s = 1.5;
+  LookedFromConfig looked_from;
   double prior_place_m = 0.5;
   double prior_length_m = 0.5;
   double prior_width_m = 0.5;
@@ -46,6 +63,8 @@ struct PamsConfig {
     PamsConfig config;
     config.beyond_region = true;
     config.dwell_s = 0.9;
+    config.looked_from.from_start = true;
+    config.looked_from.near_m = 0.5;  // beyond what an estimate trembles by, well within a cell
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
     config.faces.hidden_m = 0.06;
@@ -77,6 +96,7 @@ struct PamsConfig {
     v.field("beam", beam, {1, 1000}, "", "partial paths that the beam search keeps");
     v.field("dwell_s", dwell_s, {0, 60}, "s",
             "in view from a cell of the model until it counts; below a second one decision does");
+    v.group("looked_from", looked_from, "when a viewpoint counts as one that was looked from");
     v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
             "sd of x and y before the first view: half a car's width");
     v.field("prior_length_m", prior_length_m, {0.01, 10}, "m",

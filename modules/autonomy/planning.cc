@@ -18,6 +18,14 @@ double turn_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
 }
 
+/// Level.
+SE3 pose_of(const motion::MotionState& state) {
+  SE3 pose = SE3::Identity();
+  pose.translation() = state.position;
+  pose.linear() = Eigen::AngleAxisd(state.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return pose;
+}
+
 /// Where what is committed ends is where it is going, and nothing is in its way.
 bool clear(const PlanningInput& input) {
   return input.verdict && input.verdict->trajectory_id == input.committed->id ? input.verdict->clear
@@ -85,9 +93,13 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
   seen.stamp = input.now;
   if (input.map) {
     seen.T_world_odom = input.map->T_world_odom;
+    seen.map_stamp = input.map->stamp;
     seen.map = std::shared_ptr<const objects::ObjectMap>(input.map, &input.map->map);
   }
   seen.T_world_body = seen.T_world_odom * input.odometry.T_odom_body;
+  const motion::MotionState start = input.committed->sample(start_time(input));
+  seen.start = {start_time(input), seen.T_world_odom * pose_of(start),
+                seen.T_world_odom.linear() * start.velocity};
   seen.grid = input.grid;
   output.plan = policy_->plan(seen, budget);
   const active::ActivePlan& plan = output.plan;
@@ -138,6 +150,11 @@ void Planning::home(const PlanningInput& input, const core::Budget& budget, Outp
   }
 }
 
+/// When what is proposed now begins.
+Time Planning::start_time(const PlanningInput& input) const {
+  return input.now + from_seconds(config_.horizon_s);
+}
+
 bool Planning::leads_to(const motion::Trajectory& trajectory, const Goal& goal) const {
   const motion::MotionState& end = trajectory.states.back();
   const double tolerance = config_.yaw_tolerance_deg * std::numbers::pi / 180;
@@ -154,7 +171,7 @@ Planning::Way Planning::way_to(const Goal& goal, const PlanningInput& input,
     return Way::there;
   }
   motion::PlanRequest request;
-  request.start_time = input.now + from_seconds(config_.horizon_s);
+  request.start_time = start_time(input);
   request.start = committed.sample(request.start_time);
   request.goal = goal.position;
   request.goal_yaw = goal.yaw;

@@ -89,6 +89,7 @@ class Planning {
   [[nodiscard]] std::optional<Way> turn_to(const Goal& goal, const PlanningInput& input,
                                            motion::PlanRequest request, const core::Budget& budget,
                                            Output& output);
+  [[nodiscard]] Time start_time(const PlanningInput& input) const;
   [[nodiscard]] bool leads_to(const motion::Trajectory& trajectory, const Goal& goal) const;
   void refused(PlanningReport& report, std::string text);
   void count_targets(const active::ActivePlan& plan, PlanningReport& report) const;

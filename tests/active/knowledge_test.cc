@@ -64,6 +64,15 @@ TEST(Looks, OfOnePlaceAreOneHoweverManyThereAre) {
   EXPECT_NEAR(looks.all()[0].flown_m, 49.5, 1e-9);
 }
 
+TEST(Looks, NearAPlaceAreThoseWithinADistanceOfIt) {
+  Looks looks = no_looks();
+  looks.add({10, 0, 0}, {0, 0, 0}, 0.4, 0);
+  looks.add({10, 1.6, 0}, {0, 0, 0}, 0.7, 2);
+  EXPECT_NEAR(looks.seconds_near({10, 0.3, 0}, 0.5), 0.4, 1e-9);
+  EXPECT_NEAR(looks.seconds_near({10, 0.8, 0}, 1), 1.1, 1e-9);
+  EXPECT_EQ(looks.seconds_near({10, 0, 0}, 0), 0);
+}
+
 TEST(Looks, FromAllAroundAreNoMoreThanTheBins) {
   Looks looks = no_looks();
   for (int i = 0; i < 5000; ++i) looks.add(eye_at(0.37 * i, 4 + i % 12), {0, 0, 0}, 0.1, 0);

@@ -299,6 +299,31 @@ TEST(Saker, TakesABetterViewpointWhenOneAppears) {
             (first.position - flight.body).norm());
 }
 
+/// The next viewpoint is chosen while the vehicle still comes nearer to this one.
+TEST(Saker, TakesWhatIsCommittedForFlown) {
+  PamsConfig config = never_enough(PamsConfig::saker());
+  PamsFlight flight(config, {car(30, 0)});
+  const Viewpoint first = *flight.decide().goal;
+  ActiveStart start{.stamp = flight.input.stamp + from_seconds(1.7)};
+  start.T_world_body.translation() = first.position;
+  flight.input.start = start;
+  flight.decide();
+  ASSERT_EQ(flight.flown.size(), 1U);
+  EXPECT_EQ(flight.flown[0].viewpoint_id, first.id);
+  EXPECT_EQ(flight.flown[0].seen_until, start.stamp);
+  EXPECT_TRUE(!flight.plan.goal || flight.plan.goal->id != first.id);
+}
+
+TEST(Paper, TakesAViewpointForFlownOnceTheVehicleIsThere) {
+  PamsFlight flight(never_enough(PamsConfig::paper()), {car(30, 0)});
+  const Viewpoint first = *flight.decide().goal;
+  flight.input.start = ActiveStart{};
+  flight.input.start->T_world_body.translation() = first.position;
+  flight.decide();
+  flight.decide();
+  EXPECT_TRUE(flight.flown.empty());
+}
+
 TEST(Saker, WeighsTheNeighboursThatAViewpointSees) {
   const std::vector<Cuboid> pair = {car(20, 0, pi / 2), car(22.6, 0, pi / 2)};
   PamsConfig both = PamsConfig::saker();

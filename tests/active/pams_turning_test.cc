@@ -54,5 +54,24 @@ TEST_P(TurningEstimate, IsNoViewpointFlown) {
   EXPECT_GT(flown, 0U);
 }
 
+/// Wherever the cells' borders come to lie.
+TEST(Saker, DoesNotFlyAgainToWhereItLookedFromWhenTheEstimateTurns) {
+  for (double turn = 0; turn < 0.6; turn += 0.1) {
+    PamsConfig config = never_enough(PamsConfig::saker());
+    config.price_per_s = 0;
+    PamsFlight flight(config, {car(25, 5)});
+    for (int step = 0; step < 60 && flight.flown.empty(); ++step) flight.fly(1);
+    ASSERT_FALSE(flight.flown.empty());
+    for (int step = 0; step < 3; ++step) flight.decide();  // stands there
+    const Eigen::Vector3d place = flight.body;
+    flight.map({car(25, 5, turn)});
+    flight.goals.clear();
+    flight.fly(60);
+    for (const Viewpoint& viewpoint : flight.goals) {
+      EXPECT_GT((viewpoint.position - place).norm(), config.looked_from.near_m) << turn;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace saker::active

@@ -55,7 +55,7 @@ void MissionRecorder::on_plan(const autonomy::PlanningReport& report,
   for (const active::Expectation& flown : plan.flown) {
     if (flown.covariance.rows() < 4) continue;  // a cylinder's: its sizes are not predicted
     const Eigen::Vector2d sd = flown.covariance.diagonal().tail<2>().cwiseSqrt();
-    viewpoints_.add(report.stamp, flown.target_id, flown.viewpoint_id, sd);
+    viewpoints_.add(flown.seen_until, flown.target_id, flown.viewpoint_id, sd);
   }
   if (progress_ != nullptr && report.targets > 0) {
     progress_->update(report.visited + report.unreachable, report.targets);
