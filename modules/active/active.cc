@@ -28,7 +28,7 @@ void check_pams(const PamsConfig& pams, const GoalsConfig& goals, const std::str
 ActiveConfig checked_config(const ActiveConfig& config) {
   const ActiveConfig valid = core::checked(config, "active");
   const VisitConfig& visit = valid.visit_policy;
-  const int sides = std::max({visit.sides, valid.paper.search_sides, valid.saker.search_sides});
+  const int sides = std::max({visit.sides, valid.paper.search.sides, valid.saker.search.sides});
   if (sides > 1 && visit.separation_deg > 180.0 / (sides - 1)) {
     throw Error("active.visit.separation_deg: " + std::to_string(visit.separation_deg) +
                 ", expected at most 180 / (sides - 1), or a side may find no room");

@@ -129,7 +129,6 @@ struct ActiveConfig {
 struct ActiveStart {
   Time stamp = 0;
   SE3 T_world_body = SE3::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< world, m/s
 };
 
 /// What a decision is made from. `map` and `grid` may be absent at first.

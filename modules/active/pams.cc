@@ -10,8 +10,9 @@ namespace saker::active {
 namespace {
 
 ActiveConfig searching(ActiveConfig config, const PamsConfig& pams) {
-  config.visit_policy.sides = pams.search_sides;
-  config.visit_policy.between = pams.search_between;
+  config.visit_policy.sides = pams.search.sides;
+  config.visit_policy.between = pams.search.between;
+  config.visit_policy.dwell_s = pams.search.dwell_s;
   return config;
 }
 
@@ -40,7 +41,6 @@ ActivePlan PamsPolicy::plan(const ActiveInput& input, const core::Budget& budget
   now_ = input.stamp;
   if (pams_.looked_from.from_start && input.start) {
     now_ = input.start->stamp;
-    velocity_ = input.start->velocity;
     from_start.T_world_body = input.start->T_world_body;
   }
   for (LooksAndMap& looks : looks_) looks.map_holds(input.map_stamp.value_or(now_));
@@ -257,7 +257,7 @@ void PamsPolicy::add_ways(Choice& choice) const {
   for (int i = 0; i < count; ++i) {
     const Viewpoint& a = choice.samples[i].viewpoint;
     problem.to_m[i] = (a.position - body_).norm();
-    problem.to_s[i] = flight_time_s(a.position - body_, a.yaw - yaw_, limits_, velocity_);
+    problem.to_s[i] = seconds(body_, a.position, a.yaw - yaw_);
     if (next) problem.on_s[i] = seconds(a.position, *next, 0);
     for (int j = 0; j < count; ++j) {
       const Viewpoint& b = choice.samples[j].viewpoint;
@@ -265,7 +265,7 @@ void PamsPolicy::add_ways(Choice& choice) const {
       problem.between_s(i, j) = seconds(a.position, b.position, b.yaw - a.yaw);
     }
   }
-  if (next) problem.direct_s = flight_time_s(*next - body_, 0, limits_, velocity_);
+  if (next) problem.direct_s = seconds(body_, *next, 0);
   problem.dwell_s = pams_.dwell_s;
   problem.drift_m = pams_.drift_counts ? pams_.drift_m : 0;
   problem.price_per_s = price_of(choice.together.front());
@@ -339,7 +339,7 @@ Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
 Belief PamsPolicy::belief_of(int index, const Knowledge& known) const {
   if (!pams_.map_counts || targets_[index].covariance.size() == 0) return known.belief();
   const Belief in_map = belief_in_map(index);
-  return in_map.entropy() > known.belief().entropy() ? in_map : known.belief();
+  return pams_.map_alone || in_map.entropy() > known.belief().entropy() ? in_map : known.belief();
 }
 
 /// What the map has of it, or is about to: it does not yet hold what was seen last.

@@ -6,6 +6,20 @@
 
 namespace saker::active {
 
+/// How a target is looked for, as policy `visit` does.
+struct SearchConfig {
+  int sides = 2;
+  bool between = false;
+  double dwell_s = 3.0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("sides", sides, {1, 4}, "", "from which it is looked for: behind what hides it, too");
+    v.field("between", between, "", "as active.visit.between");
+    v.field("dwell_s", dwell_s, {0, 60}, "s", "as active.visit.dwell_s");
+  }
+};
+
 /// When a viewpoint counts as one that was looked from.
 struct LookedFromConfig {
   bool from_start = false;
@@ -37,6 +51,7 @@ struct PamsConfig {
   FacesConfig faces;
   bool common_counts = false;
   bool map_counts = false;
+  bool map_alone = false;
   double enough_entropy = -10;
   double most_size_sd_m = 10;
   double reopen_share = 1.3;
@@ -52,8 +67,7 @@ struct PamsConfig {
   bool drift_counts = false;
   double most_drift_m = 0.3;
   int most_views = 12;
-  int search_sides = 2;
-  bool search_between = false;
+  SearchConfig search;
   double way_step_m = 1;
   double window_s = 0.5;
 
@@ -79,7 +93,8 @@ struct PamsConfig {
     config.at_once = 4;
     config.replan = true;
     config.drift_counts = true;
-    config.search_between = true;
+    config.search.between = true;
+    config.search.dwell_s = 1.5;
     return config;
   }
 
@@ -110,6 +125,7 @@ struct PamsConfig {
     v.field("map_counts", map_counts, "",
             "whether a target is known no better than the map has it: where one view contradicts "
             "others, it is looked at further");
+    v.field("map_alone", map_alone, "", "TRIAL");
     v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
             "½ ln det of the covariance in m² at which a target is known well enough");
     v.field("most_size_sd_m", most_size_sd_m, {0.01, 10}, "m",
@@ -136,9 +152,8 @@ struct PamsConfig {
     v.field("most_drift_m", most_drift_m, {0.01, 10}, "m",
             "sd of the pose since a target was first seen, beyond which it is looked at no more");
     v.field("most_views", most_views, {1, 100}, "", "viewpoints flown to a target");
-    v.field("search_sides", search_sides, {1, 4}, "",
-            "from which a target that is not in the map is looked for: behind what hides it, too");
-    v.field("search_between", search_between, "", "the same as active.visit.between");
+    v.group("search", search,
+            "a target that is not in the map, or of which nobody has seen how long it is");
     v.field("window_s", window_s, {0, 60}, "s",
             "the same for what is predicted: SLAM counts a cell from its first window on");
     v.field("way_step_m", way_step_m, {0.1, 10}, "m",

@@ -97,9 +97,8 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
     seen.map = std::shared_ptr<const objects::ObjectMap>(input.map, &input.map->map);
   }
   seen.T_world_body = seen.T_world_odom * input.odometry.T_odom_body;
-  const motion::MotionState start = input.committed->sample(start_time(input));
-  seen.start = {start_time(input), seen.T_world_odom * pose_of(start),
-                seen.T_world_odom.linear() * start.velocity};
+  const SE3 T_odom_start = pose_of(input.committed->sample(start_time(input)));
+  seen.start = {start_time(input), seen.T_world_odom * T_odom_start};
   seen.grid = input.grid;
   output.plan = policy_->plan(seen, budget);
   const active::ActivePlan& plan = output.plan;

@@ -34,31 +34,6 @@ TEST(FlightTime, OfAClimbIsSlower) {
   EXPECT_GT(flight_time_s({0, 0, 10}, 0, kLimits), flight_time_s({10, 0, 0}, 0, kLimits));
 }
 
-TEST(FlightTime, OfAStartAtFullSpeedSavesTheFirstRamp) {
-  const double ramp_s = kLimits.max_speed / kLimits.max_acceleration;
-  const double saved = flight_time_s({50, 0, 0}, 0, kLimits) -
-                       flight_time_s({50, 0, 0}, 0, kLimits, {kLimits.max_speed, 0, 0});
-  EXPECT_NEAR(saved, 0.5 * ramp_s, 1e-12);
-}
-
-TEST(FlightTime, AwayFromTheGoalBrakesFirst) {
-  const double ramp_s = kLimits.max_speed / kLimits.max_acceleration;
-  const double braking_m = 0.5 * kLimits.max_speed * ramp_s;
-  const double expected = ramp_s + flight_time_s({50 + braking_m, 0, 0}, 0, kLimits);
-  EXPECT_NEAR(flight_time_s({50, 0, 0}, 0, kLimits, {-kLimits.max_speed, 0, 0}), expected, 1e-12);
-}
-
-TEST(FlightTime, PastTheGoalFliesBackWhatItCouldNotBrakeIn) {
-  const double braking_m = 0.5 * 4 / kLimits.max_acceleration;
-  const double expected =
-      2 / kLimits.max_acceleration + flight_time_s({0.75 * braking_m, 0, 0}, 0, kLimits);
-  EXPECT_NEAR(flight_time_s({0.25 * braking_m, 0, 0}, 0, kLimits, {2, 0, 0}), expected, 1e-12);
-}
-
-TEST(FlightTime, AcrossTheWayIsNoFaster) {
-  EXPECT_GT(flight_time_s({1, 0, 0}, 0, kLimits, {0, 2, 0}), flight_time_s({1, 0, 0}, 0, kLimits));
-}
-
 TEST(FlightTime, OfAWayInTwoPartsIsNoLess) {
   core::Rng rng(1);
   for (int trial = 0; trial < 1000; ++trial) {

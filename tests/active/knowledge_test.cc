@@ -73,6 +73,20 @@ TEST(Looks, NearAPlaceAreThoseWithinADistanceOfIt) {
   EXPECT_EQ(looks.seconds_near({10, 0, 0}, 0), 0);
 }
 
+TEST(Looks, AreInAMapOnceItHoldsWhatWasMeasuredUntilTheyEnded) {
+  LooksAndMap looks(no_looks());
+  looks.add(1000, {10, 0, 0}, {0, 0, 0}, 0.4, 0);
+  looks.add(2000, {0, 10, 0}, {0, 0, 0}, 0.7, 12);
+  EXPECT_EQ(looks.so_far().all().size(), 2U);
+  EXPECT_TRUE(looks.in_map().all().empty());
+  looks.map_holds(1999);
+  ASSERT_EQ(looks.in_map().all().size(), 1U);
+  EXPECT_NEAR(looks.in_map().all()[0].seconds, 0.4, 1e-12);
+  looks.map_holds(2000);
+  EXPECT_EQ(looks.in_map().all().size(), 2U);
+  EXPECT_EQ(looks.in_map().first_m(), 0);
+}
+
 TEST(Looks, FromAllAroundAreNoMoreThanTheBins) {
   Looks looks = no_looks();
   for (int i = 0; i < 5000; ++i) looks.add(eye_at(0.37 * i, 4 + i % 12), {0, 0, 0}, 0.1, 0);

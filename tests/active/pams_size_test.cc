@@ -179,5 +179,17 @@ TEST(PamsSize, PolicyPaperAsksForTheDeterminantAlone) {
   EXPECT_EQ(flight.target(0).reason.find("known well enough"), 0U) << flight.target(0).reason;
 }
 
+/// It is late: what was seen since then will be in it.
+TEST(PamsSize, WhatTheMapDoesNotHoldYetCounts) {
+  const auto goals = [](std::optional<Time> map_stamp) {
+    KnownButForItsLength flight(easily_enough());
+    flight.know_length_to(0.3);
+    flight.input.map_stamp = map_stamp;
+    flight.fly(600);
+    return flight.goals.size();
+  };
+  EXPECT_LT(goals(Time{0}), goals(std::nullopt));
+}
+
 }  // namespace
 }  // namespace saker::active

@@ -54,22 +54,33 @@ TEST_P(TurningEstimate, IsNoViewpointFlown) {
   EXPECT_GT(flown, 0U);
 }
 
-/// Wherever the cells' borders come to lie.
-TEST(Saker, DoesNotFlyAgainToWhereItLookedFromWhenTheEstimateTurns) {
-  for (double turn = 0; turn < 0.6; turn += 0.1) {
-    PamsConfig config = never_enough(PamsConfig::saker());
-    config.price_per_s = 0;
-    PamsFlight flight(config, {car(25, 5)});
-    for (int step = 0; step < 60 && flight.flown.empty(); ++step) flight.fly(1);
-    ASSERT_FALSE(flight.flown.empty());
-    for (int step = 0; step < 3; ++step) flight.decide();  // stands there
-    const Eigen::Vector3d place = flight.body;
-    flight.map({car(25, 5, turn)});
-    flight.goals.clear();
-    flight.fly(60);
-    for (const Viewpoint& viewpoint : flight.goals) {
-      EXPECT_GT((viewpoint.position - place).norm(), config.looked_from.near_m) << turn;
-    }
+/// The border of a cell lies between where the vehicle was and the sample beside it.
+TEST(Saker, DoesNotFlyToASampleBesideWhereItLookedFrom) {
+  PamsConfig config = never_enough(PamsConfig::saker());
+  config.sampling = Sampling::uniform;
+  config.price_per_s = 0;
+  const double beside = 0.005;  // rad, of the border of a cell at 30°
+  const Cuboid target = car(25, 5, pi / 6 - beside);
+  ViewModel alike = oblique_model();  // so that the nearest cell is the next
+  alike.predict = [](objects::ClassId id, const uncertainty::View& view) {
+    uncertainty::Prediction prediction = predict(id, view);
+    prediction.covariance = 0.04 * Eigen::MatrixXd::Identity(4, 4);
+    return prediction;
+  };
+  PamsFlight flight(config, {target}, everywhere, alike);
+  const auto sample = std::ranges::find_if(flight.decide().candidates, [&](const Candidate& one) {
+    return std::abs(one.viewpoint.bearing - pi / 3) < 1e-6;
+  });
+  ASSERT_NE(sample, flight.plan.candidates.end());
+  const Eigen::Vector3d out = sample->viewpoint.position - target.pose.translation();
+  flight.body =
+      target.pose.translation() + Eigen::AngleAxisd(-2 * beside, Eigen::Vector3d::UnitZ()) * out;
+  const Eigen::Vector3d place = flight.body;
+  for (int step = 0; step < 3; ++step) flight.decide();
+  flight.goals.clear();
+  flight.fly(60);
+  for (const Viewpoint& viewpoint : flight.goals) {
+    EXPECT_GT((viewpoint.position - place).norm(), config.looked_from.near_m);
   }
 }
 
