@@ -339,7 +339,7 @@ Looks PamsPolicy::looks_until(const Viewpoint& viewpoint, int index) const {
 Belief PamsPolicy::belief_of(int index, const Knowledge& known) const {
   if (!pams_.map_counts || targets_[index].covariance.size() == 0) return known.belief();
   const Belief in_map = belief_in_map(index);
-  return pams_.map_alone || in_map.entropy() > known.belief().entropy() ? in_map : known.belief();
+  return in_map.entropy() > known.belief().entropy() ? in_map : known.belief();
 }
 
 /// What the map has of it, or is about to: it does not yet hold what was seen last.

@@ -51,7 +51,6 @@ struct PamsConfig {
   FacesConfig faces;
   bool common_counts = false;
   bool map_counts = false;
-  bool map_alone = false;
   double enough_entropy = -10;
   double most_size_sd_m = 10;
   double reopen_share = 1.3;
@@ -84,7 +83,7 @@ struct PamsConfig {
     config.faces.hidden_m = 0.06;
     config.faces.hidden_side_m = 0.15;  // as slam.noise.fitted_hidden_side_m
     config.enough_entropy = -11;
-    config.most_size_sd_m = 0.1;
+    config.most_size_sd_m = 0.07;  // errors go with what the map states
     config.common_counts = true;
     config.map_counts = true;
     config.price_per_s = 0.3;
@@ -94,7 +93,7 @@ struct PamsConfig {
     config.replan = true;
     config.drift_counts = true;
     config.search.between = true;
-    config.search.dwell_s = 1.5;
+    config.search.dwell_s = 0.9;  // one decision: SLAM has the object, or is about to
     return config;
   }
 
@@ -125,12 +124,11 @@ struct PamsConfig {
     v.field("map_counts", map_counts, "",
             "whether a target is known no better than the map has it: where one view contradicts "
             "others, it is looked at further");
-    v.field("map_alone", map_alone, "", "TRIAL");
     v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
             "½ ln det of the covariance in m² at which a target is known well enough");
     v.field("most_size_sd_m", most_size_sd_m, {0.01, 10}, "m",
             "sd of length and of width in the map, above which it is not, either: an end that "
-            "nobody saw hides in a determinant. As targets.known_sd_m");
+            "nobody saw hides in a determinant");
     v.field("reopen_share", reopen_share, {1, 100}, "",
             "of most_size_sd_m, above which a closed target is opened again: estimates tremble");
     v.field("least_probability", least_probability, {0, 1}, "",

@@ -77,6 +77,7 @@ TEST_P(BothPolicies, LookForATargetThatIsNotMappedAsVisitDoes) {
 TEST_P(BothPolicies, EndATargetAtTheEntropyThreshold) {
   PamsConfig config = GetParam();
   config.enough_entropy = -6;  // the first view is enough
+  config.most_size_sd_m = 10;
   config.price_per_s = 0;
   PamsFlight flight(config, {car(20, 5)});
   flight.fly(600);
