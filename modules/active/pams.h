@@ -32,6 +32,8 @@ namespace saker::active {
 /// its views should have told, for they disagree, the map is believed; a length or width that it
 /// does not know keeps a target open, or opens it again, and is worth all of the lattice where the
 /// region's samples are used up; what was known well enough and left the map is looked for again.
+/// It decides from where the decision begins to be flown, by what the map, which is late, knows and
+/// what was seen since.
 /// Cost: some 20 ms a decision.
 class PamsPolicy : public VisitPolicy {
  public:
