@@ -33,9 +33,11 @@ ActiveConfig checked_config(const ActiveConfig& config) {
     throw Error("active.visit.separation_deg: " + std::to_string(visit.separation_deg) +
                 ", expected at most 180 / (sides - 1), or a side may find no room");
   }
-  if (valid.goals.standing_s <= 2 * visit.dwell_s) {
+  const double dwell_s =
+      std::max({visit.dwell_s, valid.paper.search.dwell_s, valid.saker.search.dwell_s});
+  if (valid.goals.standing_s <= 2 * dwell_s) {
     throw Error("active.goals.standing_s: " + std::to_string(valid.goals.standing_s) +
-                ", expected more than two dwells (active.visit.dwell_s), or no side is ever seen");
+                ", expected more than two dwells of a side, or none is ever seen");
   }
   const FieldOfViewConfig& view = valid.view;
   if (view.nearest_m >= view.farthest_m) {

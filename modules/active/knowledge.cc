@@ -82,7 +82,7 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
 }
 
 Belief Knowledge::expected(const Covariance& covariance, const Knowledge& then) const {
-  Belief belief = of_map(covariance);
+  Belief belief(covariance, common_);
   const double scatter = scatter_of(belief);
   for (const auto& [id, information] : then.cells_) {
     if (!counted(id)) belief.add(information / scatter);

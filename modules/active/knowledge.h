@@ -31,9 +31,6 @@ class Knowledge {
   [[nodiscard]] bool counted(int cell) const { return cells_.contains(cell); }
   [[nodiscard]] int cells() const { return static_cast<int>(cells_.size()); }
 
-  /// What a map that knows the object to `covariance` (given the poses) knows of it.
-  [[nodiscard]] Belief of_map(const Covariance& covariance) const { return {covariance, common_}; }
-
   /// What a map that knows the object to `covariance` (given the poses) by now will know after more
   /// looks. Where it knows less than these looks should have told, its views contradict each other,
   /// and further ones will: they tell so much less, too.
@@ -49,7 +46,8 @@ class Knowledge {
 };
 
 /// What the map will know of the target when it holds the looks `until`; SLAM counts a cell from
-/// its first window on. \param held  of `until`, those that it holds by now
+/// its first window on.
+/// \param held those of `until` that it holds by now
 [[nodiscard]] Belief map_belief(const Target& target, const Looks& held, const Looks& until,
                                 const ViewModel& model, const PamsConfig& config);
 

@@ -38,12 +38,12 @@ ActivePlan PamsPolicy::plan(const ActiveInput& input, const core::Budget& budget
   flown_.clear();
   reachability_.reset();
   ActiveInput from_start = input;
-  now_ = input.stamp;
   if (pams_.looked_from.from_start && input.start) {
-    now_ = input.start->stamp;
+    from_start.stamp = input.start->stamp;
     from_start.T_world_body = input.start->T_world_body;
   }
-  for (LooksAndMap& looks : looks_) looks.map_holds(input.map_stamp.value_or(now_));
+  const Time held = input.map_stamp.value_or(from_start.stamp);
+  for (LooksAndMap& looks : looks_) looks.map_holds(held);
   ActivePlan plan = VisitPolicy::plan(from_start, budget);
   if (goal_ && flies_to(goal_->target)) plan.expected = expected_;
   plan.flown = flown_;
@@ -51,7 +51,7 @@ ActivePlan PamsPolicy::plan(const ActiveInput& input, const core::Budget& budget
 }
 
 void PamsPolicy::look(int index) {
-  looks_[index].add(now_, body_, targets_[index].place(), elapsed_s_, flown_m_);
+  looks_[index].add(*last_stamp_, body_, targets_[index].place(), elapsed_s_, flown_m_);
   if (!targets_[index].mapped()) return VisitPolicy::look(index);
   const Knowledge known = known_of(index);
   if (known.cells() > cells_[index]) {
@@ -59,7 +59,7 @@ void PamsPolicy::look(int index) {
     saw_something_new(index);
   }
   if (has_flown_to(index, known)) {
-    expected_->seen_until = now_;
+    expected_->seen_until = *last_stamp_;
     flown_.push_back(*expected_);
     expected_.reset();
   }
@@ -73,7 +73,7 @@ void PamsPolicy::reconsider() {
   for (int index = 0; index < targets_.size(); ++index) {
     if (!sure_[index] || targets_[index].status == TargetStatus::pending) continue;
     if (sees(body_, yaw_, targets_[index], 0)) {
-      looks_[index].add(now_, body_, targets_[index].place(), elapsed_s_, flown_m_);
+      looks_[index].add(*last_stamp_, body_, targets_[index].place(), elapsed_s_, flown_m_);
     }
     if (stays_closed(index)) continue;
     sure_[index] = false;

@@ -84,11 +84,10 @@ class PamsPolicy : public VisitPolicy {
   PamsConfig pams_;
   ViewModel model_;
   motion::LimitsConfig limits_;
-  Time now_ = 0;                    ///< when the vehicle is where this decision takes it to be
-  std::vector<LooksAndMap> looks_;  ///< one a target, as the next three
-  std::vector<int> cells_;          ///< the most that ever counted
-  std::vector<int> views_;          ///< viewpoints flown
-  std::vector<bool> sure_;          ///< known well enough when last asked
+  std::vector<LooksAndMap> looks_;            ///< one a target, as the next three
+  std::vector<int> cells_;                    ///< the most that ever counted
+  std::vector<int> views_;                    ///< viewpoints flown
+  std::vector<bool> sure_;                    ///< known well enough when last asked
   std::optional<Reachability> reachability_;  ///< of this decision
   std::optional<Expectation> expected_;       ///< of the goal
   std::vector<Expectation> flown_;            ///< in this decision

@@ -69,6 +69,7 @@ class TouringPolicy : public TargetPolicy {
   InGeofence in_geofence_;
   std::vector<Record> records_;  ///< one a target
 
+  std::optional<Time> last_stamp_;                         ///< of the newest input, this decision's
   double elapsed_s_ = 0;                                   ///< since the last decision
   double flown_m_ = 0;                                     ///< since the first one
   Eigen::Vector3d body_ = Eigen::Vector3d::Constant(NAN);  ///< world, m
@@ -91,8 +92,7 @@ class TouringPolicy : public TargetPolicy {
   void give_up_target(int index, const std::string& reason);
   [[nodiscard]] ActivePlan report() const;
 
-  int revision_ = -1;  ///< of the list, as far as it was followed
-  std::optional<Time> last_stamp_;
+  int revision_ = -1;    ///< of the list, as far as it was followed
   bool stands_ = false;  ///< since the last decision
   std::shared_ptr<const occupancy::OccupancyGrid> grid_;
   double tour_length_m_ = 0;

@@ -35,6 +35,14 @@ struct Surroundings {
 [[nodiscard]] double visible_share(const Eigen::Vector3d& eye, const objects::Cuboid& target,
                                    const Surroundings& surroundings, double own_margin_m);
 
+/// Of a frame that stands upright at `position`, turned by `yaw`, rad.
+[[nodiscard]] inline SE3 level_pose(const Eigen::Vector3d& position, double yaw) {
+  SE3 T = SE3::Identity();
+  T.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.translation() = position;
+  return T;
+}
+
 /// A place to look from.
 struct Viewpoint {
   int id = -1;  ///< target and slot: the same direction and ring have the same id; below −1: a stop
@@ -45,12 +53,7 @@ struct Viewpoint {
   double bearing = NAN;  ///< rad, world: from the target to the viewpoint
 
   /// T_world_body there, level.
-  [[nodiscard]] SE3 pose() const {
-    SE3 T = SE3::Identity();
-    T.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    T.translation() = position;
-    return T;
-  }
+  [[nodiscard]] SE3 pose() const { return level_pose(position, yaw); }
 };
 
 /// Why a candidate is not flown to.

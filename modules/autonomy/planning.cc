@@ -18,14 +18,6 @@ double turn_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
 }
 
-/// Level.
-SE3 pose_of(const motion::MotionState& state) {
-  SE3 pose = SE3::Identity();
-  pose.translation() = state.position;
-  pose.linear() = Eigen::AngleAxisd(state.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return pose;
-}
-
 /// Where what is committed ends is where it is going, and nothing is in its way.
 bool clear(const PlanningInput& input) {
   return input.verdict && input.verdict->trajectory_id == input.committed->id ? input.verdict->clear
@@ -97,8 +89,9 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
     seen.map = std::shared_ptr<const objects::ObjectMap>(input.map, &input.map->map);
   }
   seen.T_world_body = seen.T_world_odom * input.odometry.T_odom_body;
-  const SE3 T_odom_start = pose_of(input.committed->sample(start_time(input)));
-  seen.start = {start_time(input), seen.T_world_odom * T_odom_start};
+  const motion::MotionState start = input.committed->sample(start_time(input));
+  seen.start = {start_time(input),
+                seen.T_world_odom * active::level_pose(start.position, start.yaw)};
   seen.grid = input.grid;
   output.plan = policy_->plan(seen, budget);
   const active::ActivePlan& plan = output.plan;
