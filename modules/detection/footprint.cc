@@ -44,23 +44,58 @@ using Along = std::array<std::vector<double>, 2>;
 /// How far the strips across an axis reach outward along it, to its low and to its high side.
 using Reach = std::array<std::vector<double>, 2>;
 
+constexpr double kNone = -1e9;  // of a strip without places
+
 Along along_both(double direction, const Places& places) {
   const auto axis = axes(direction);
   return {along(axis[0], places), along(axis[1], places)};
 }
 
-Reach reach(const std::vector<double>& along, const std::vector<double>& across, double strip_m) {
-  constexpr double kNone = -1e9;
-  const auto [first, last] = std::minmax_element(across.begin(), across.end());
-  const auto strip = [&](double at) { return static_cast<std::size_t>((at - *first) / strip_m); };
+/// The strip of each place.
+std::vector<std::size_t> strips_of(const std::vector<double>& across, double strip_m) {
+  const double first = *std::ranges::min_element(across);
+  std::vector<std::size_t> strips(across.size());
+  std::ranges::transform(across, strips.begin(), [&](double at) {
+    return static_cast<std::size_t>((at - first) / strip_m);
+  });
+  return strips;
+}
+
+/// By each strip's outermost place.
+Reach outermost(const std::vector<double>& along, const std::vector<std::size_t>& strips) {
   Reach reach;
-  reach.fill(std::vector<double>(strip(*last) + 1, kNone));
+  reach.fill(std::vector<double>(*std::ranges::max_element(strips) + 1, kNone));
   for (std::size_t i = 0; i < along.size(); ++i) {
-    double& low = reach[0][strip(across[i])];
-    double& high = reach[1][strip(across[i])];
+    double& low = reach[0][strips[i]];
+    double& high = reach[1][strips[i]];
     low = std::max(low, -along[i]);
     high = std::max(high, along[i]);
   }
+  return reach;
+}
+
+/// By the mean of each strip's outermost layer: of many places on a face the outermost is the one
+/// that noise moved farthest.
+Reach faces(const std::vector<double>& along, const std::vector<std::size_t>& strips,
+            const Reach& outermost, double layer_m) {
+  Reach mean = outermost;
+  for (int end = 0; end < 2; ++end) {
+    std::vector<double> sum(mean[end].size(), 0), count = sum;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      const double outward = end == 0 ? -along[i] : along[i];
+      if (outward < outermost[end][strips[i]] - layer_m) continue;
+      sum[strips[i]] += outward;
+      count[strips[i]] += 1;
+    }
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      if (count[k] > 0) mean[end][k] = sum[k] / count[k];
+    }
+  }
+  return mean;
+}
+
+/// Without strips that have no place.
+Reach filled(Reach reach) {
   for (std::vector<double>& side : reach) std::erase(side, kNone);
   return reach;
 }
@@ -85,9 +120,9 @@ double side_of(std::vector<double> outward, const FootprintConfig& config) {
 double closeness(const Along& places, const FootprintConfig& config) {
   std::array<std::array<double, 2>, 2> sides{};  // [axis][low, high], outward
   for (std::size_t k = 0; k < 2; ++k) {
-    const Reach strips = reach(places[k], places[1 - k], config.strip_m);
+    const Reach reach = filled(outermost(places[k], strips_of(places[1 - k], config.strip_m)));
     for (std::size_t end = 0; end < 2; ++end) {
-      sides[k][end] = core::percentile(strips[end], config.reach_percentile / 100);
+      sides[k][end] = core::percentile(reach[end], config.reach_percentile / 100);
     }
   }
   double score = 0;
@@ -119,11 +154,14 @@ Footprint sides(const Places& places, const FootprintConfig& config) {
   footprint.direction = closest_direction(places, config);
   const Along at = along_both(footprint.direction, places);
   for (int k = 0; k < 2; ++k) {
-    const auto [low, high] = reach(at[k], at[1 - k], config.strip_m);
+    const std::vector<std::size_t> strips = strips_of(at[1 - k], config.strip_m);
+    const Reach farthest = outermost(at[k], strips);
+    const auto [low, high] = filled(faces(at[k], strips, farthest, config.layer_m));
     footprint.low[k] = -side_of(low, config);
     footprint.high[k] = side_of(high, config);
-    footprint.outer_low[k] = -core::percentile(low, config.outer_percentile / 100);
-    footprint.outer_high[k] = core::percentile(high, config.outer_percentile / 100);
+    const auto [outer_low, outer_high] = filled(farthest);
+    footprint.outer_low[k] = -core::percentile(outer_low, config.outer_percentile / 100);
+    footprint.outer_high[k] = core::percentile(outer_high, config.outer_percentile / 100);
   }
   return footprint;
 }

@@ -31,6 +31,7 @@ enum class FootprintMethod { sides, hull };
 struct FootprintConfig {
   FootprintMethod method = FootprintMethod::sides;
   double strip_m = 0.25;
+  double layer_m = 0.06;
   double reach_percentile = 75;
   double outer_percentile = 95;
   double together_m = 0.2;
@@ -46,6 +47,9 @@ struct FootprintConfig {
     v.field("method", method, "", "how the rectangle is found: sides, or hull (the paper's)");
     v.field("strip_m", strip_m, {0.05, 2}, "m",
             "sides: strips across a side, wider than beams are apart, a mirror within one or two");
+    v.field("layer_m", layer_m, {0, 1}, "m",
+            "sides: within a strip's outermost place: on one face, whose place is their mean; four "
+            "sds of a range's noise. The outermost alone lies 0.02 to 0.03 m too far out");
     v.field(
         "reach_percentile", reach_percentile, {50, 100}, "%",
         "sides: of how far the strips reach outward: the side; a quarter of them may stand out");

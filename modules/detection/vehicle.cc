@@ -51,9 +51,9 @@ double top_of(const std::vector<BodyPoint>& points, double percentile) {
 
 /// Of the length (axis 0) or the width of a vehicle with this top (m above the ground).
 SizePrior prior_of(int axis, double top, const VehicleConfig& config) {
-  if (axis == 1) return {config.width_m, config.width_sd_m};
   const TallConfig& tall = config.tall;
   const double higher = std::clamp(top, tall.from_m, tall.most_m) - tall.from_m;
+  if (axis == 1) return {config.width_m + tall.width_per_m * higher, config.width_sd_m};
   return {config.length_m + tall.length_per_m * higher, config.length_sd_m};
 }
 

@@ -178,12 +178,13 @@ struct VehicleNoiseConfig {
   }
 };
 
-/// A higher vehicle is a longer one: the class's length, for a hidden end, goes by the top that was
-/// seen. A low top may be all that was seen of a high vehicle: it says nothing.
+/// A higher vehicle is a longer and a wider one: the class's size, for what is hidden, goes by the
+/// top that was seen. A low top may be all that was seen of a high vehicle: it says nothing.
 struct TallConfig {
   double from_m = 1.5;
   double most_m = 2.2;
   double length_per_m = 1.4;
+  double width_per_m = 0.28;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -191,6 +192,8 @@ struct TallConfig {
     v.field("most_m", most_m, {0, 10}, "m", "from here on no more is: vans are of one length");
     v.field("length_per_m", length_per_m, {0, 10}, "m/m",
             "longer by that: a line through a dozen common makes, a Fiat 500 to a Sprinter");
+    v.field("width_per_m", width_per_m, {0, 10}, "m/m",
+            "wider by that: 1.80 m of saloons, 1.86 m of a Tiguan or RAV4, 1.93 m of vans");
   }
 };
 
@@ -233,7 +236,7 @@ struct VehicleConfig {
     v.field("length_sd_m", length_sd_m, {0.01, 10}, "m", "its standard deviation");
     v.field("width_m", width_m, {0.5, 5}, "m", "mean width of the class, for unseen sides");
     v.field("width_sd_m", width_sd_m, {0.01, 5}, "m", "its standard deviation");
-    v.group("tall", tall, "how the class's length goes by the top");
+    v.group("tall", tall, "how the class's length and width go by the top");
     v.field("prior_windows", prior_windows, {1, 10000}, "",
             "that say as much of the class's size as one of them: all say the same, and many that "
             "hide a side would outvote the few that saw both");
