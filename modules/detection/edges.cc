@@ -64,19 +64,25 @@ double free_from(const Footprint& footprint, int k, int end, const Sight& sight,
   return sight.nearest(box, config.beams, least_way_m);
 }
 
+/// Of its shadow, in which an end as high as `top` may lie.
+double shadow_share(double top, const ShadowConfig& config) {
+  const double higher = std::max(0.0, top - config.bonnet_m);
+  return std::max(config.least_share, config.share - config.share_per_m * higher);
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector2d> within(const Footprint& footprint,
                                     const std::vector<Eigen::Vector2d>& places, const Sight& sight,
                                     const VehicleConfig& config) {
-  constexpr double kLookedAt = 0.5;  // of 1
+  const double least = config.footprint.looked_at;
   const Eigen::Rotation2Dd to_axes(-footprint.direction);
   Eigen::Vector2d low = Eigen::Vector2d::Constant(-1e9), high = -low;
   for (int k = 0; k < 2; ++k) {
     const auto looked = looked_at(footprint, sight.sensors, k, config.noise.setback);
     const double out = config.footprint.stands_out_m;
-    if (looked[0] > kLookedAt) low[k] = footprint.low[k] - out;
-    if (looked[1] > kLookedAt) high[k] = footprint.high[k] + out;
+    if (looked[0] > least) low[k] = footprint.low[k] - out;
+    if (looked[1] > least) high[k] = footprint.high[k] + out;
   }
   std::vector<Eigen::Vector2d> kept;
   std::ranges::copy_if(places, std::back_inserter(kept), [&](const Eigen::Vector2d& place) {
@@ -97,7 +103,8 @@ Footprint as_seen(const Footprint& footprint, const Sight& sight, const SetbackC
   return seen;
 }
 
-Edges edges_of(const Footprint& footprint, const Sight& sight, const VehicleNoiseConfig& noise) {
+Edges edges_of(const Footprint& footprint, const std::array<double, 2>& tops, const Sight& sight,
+               const VehicleNoiseConfig& noise) {
   const double seen_sd =
       std::hypot(noise.edge_m, noise.edge_per_m * nearest_range(footprint, sight.sensors));
   Edges edges{};
@@ -106,14 +113,16 @@ Edges edges_of(const Footprint& footprint, const Sight& sight, const VehicleNois
     for (int end = 0; end < 2; ++end) {
       FootprintEdge& edge = edges[k][end];
       edge.hidden_m = free_from(footprint, k, end, sight, noise.beyond);
-      const bool lies_farther = k == 0 && std::isfinite(edge.hidden_m);
-      const double share = (1 - looked[end]) * noise.beyond.hidden_share;
-      const double outward = lies_farther ? share * edge.hidden_m : 0;
+      double way = edge.hidden_m, outward = 0;
+      if (k == 0 && std::isfinite(way)) {
+        way *= std::lerp(shadow_share(tops[end], noise.beyond.shadow), 1.0, looked[end]);
+        outward = (1 - looked[end]) * noise.beyond.hidden_share * way;
+      }
       const double setback =
           (1 - looked[end]) * std::lerp(noise.setback.outline, 1.0, looked[1 - end]);
       edge.position = end == 0 ? footprint.low[k] - outward : footprint.high[k] + outward;
-      edge.sd = seen_sd + setback * noise.setback.sd_m +
-                std::min(edge.hidden_m / std::sqrt(12.0), noise.unseen_m);
+      edge.sd =
+          seen_sd + setback * noise.setback.sd_m + std::min(way / std::sqrt(12.0), noise.unseen_m);
     }
   }
   return edges;

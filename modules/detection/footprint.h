@@ -37,6 +37,7 @@ struct FootprintConfig {
   double together_m = 0.2;
   double together_share = 0.3;
   double stands_out_m = 0.15;
+  double looked_at = 0.5;
   double side_m = 0.1;
   double step_deg = 1;
   double low_percentile = 5;
@@ -65,6 +66,9 @@ struct FootprintConfig {
     v.field("stands_out_m", stands_out_m, {0, 5}, "m",
             "sides: of a face that was looked at: not the vehicle's, and once left out the "
             "direction is found again");
+    v.field("looked_at", looked_at, {0, 1}, "",
+            "sides: above which a face counts as looked at: a sensor half of setback.outside_m "
+            "outside of its plane");
     v.field("side_m", side_m, {0.01, 1}, "m",
             "sides: nearer to a side than this counts as on it: doors and wheels, noise and drift");
     v.field("step_deg", step_deg, {0.1, 10}, "deg", "sides: step of the directions tried");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "core/statistics.h"
 #include "detection/edges.h"
@@ -79,14 +80,40 @@ double unlike(double size, double hidden_m, const SizePrior& prior) {
   return size > prior.mean ? size - prior.mean : std::max(0.0, prior.mean - size - hidden_m);
 }
 
-/// A slab across the low or the high end of the footprint's first axis.
-objects::Cuboid end_of(const Footprint& footprint, int end, const VehicleConfig& config) {
-  const double inward = config.noise.amid_others.depth_m, outward = config.noise.beyond.near_m;
+/// A slab across the low or the high end of the footprint's first axis, to `inward` from it.
+objects::Cuboid end_of(const Footprint& footprint, int end, double inward,
+                       const VehicleConfig& config) {
+  const double outward = config.noise.beyond.near_m;
   Eigen::Vector2d low = footprint.low, high = footprint.high;
   const double at = end == 0 ? low.x() : high.x();
   low.x() = end == 0 ? at - outward : at - inward;
   high.x() = end == 0 ? at + inward : at + outward;
   return upright(footprint.direction, {low, high}, {config.lowest_m, config.highest_m});
+}
+
+/// How high what was seen of an end is; 0 where nothing was.
+double top_of_end(const std::vector<BodyPoint>& points, const objects::Cuboid& end,
+                  double percentile) {
+  const SE3 T_end_local = end.pose.inverse();
+  const Eigen::Vector2d half = 0.5 * end.size.head<2>();
+  std::vector<BodyPoint> own;
+  std::ranges::copy_if(points, std::back_inserter(own), [&](const BodyPoint& p) {
+    const Eigen::Vector3d at = T_end_local * p.position.cast<double>();
+    return std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y();
+  });
+  return own.empty() ? 0 : top_of(own, percentile);
+}
+
+/// Of the low and the high end of the footprint's first axis.
+std::array<double, 2> tops_of_ends(const Footprint& footprint, const std::vector<BodyPoint>& points,
+                                   const VehicleConfig& config) {
+  const ShadowConfig& shadow = config.noise.beyond.shadow;
+  std::array<double, 2> tops{};
+  for (int end = 0; end < 2; ++end) {
+    tops[end] =
+        top_of_end(points, end_of(footprint, end, shadow.depth_m, config), shadow.top_percentile);
+  }
+  return tops;
 }
 
 /// Added to the sd of an end where most of the points about it are of no object; own ones that may
@@ -131,11 +158,12 @@ double doubt_where_side_goes_on(const Footprint& footprint, int end, const Sight
 Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& points, double top,
                     const Sight& sight, const VehicleConfig& config) {
   Rectangle result{footprint, {}, 0};
-  Edges edges = edges_of(footprint, sight, config.noise);
+  Edges edges = edges_of(footprint, tops_of_ends(footprint, points, config), sight, config.noise);
   for (int end = 0; end < 2; ++end) {
     edges[0][end].sd +=
         doubt_where_side_goes_on(footprint, end, sight, config.noise.goes_on) +
-        doubt_amid_others(points, end_of(footprint, end, config), sight, config.noise.amid_others);
+        doubt_amid_others(points, end_of(footprint, end, config.noise.amid_others.depth_m, config),
+                          sight, config.noise.amid_others);
   }
   const double seen_sd = config.noise.edge_m + 0.3 * config.noise.unseen_m;
   for (int k = 0; k < 2; ++k) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "core/rng.h"
 #include "detection/edges.h"
 
 namespace saker::detection {
@@ -13,6 +15,7 @@ namespace {
 using Places = std::vector<Eigen::Vector2d>;
 
 constexpr double kLength = 4.5, kWidth = 1.8;
+constexpr std::array<double, 2> kBonnets = {0.75, 0.75};  // m, both ends are as low as that
 
 /// The outline of a box about the origin with its length along `yaw`.
 Places outline(double yaw) {
@@ -53,6 +56,20 @@ TEST(Footprint, OfAnOutlineIsItsRectangle) {
     EXPECT_NEAR(footprint.size().x(), kLength, 0.05) << yaw;
     EXPECT_NEAR(footprint.size().y(), kWidth, 0.05) << yaw;
   }
+}
+
+TEST(Footprint, SideLiesAmidTheNoiseOfItsPlaces) {
+  core::Rng rng(3);
+  Places noisy;
+  for (int scan = 0; scan < 20; ++scan) {
+    for (const Eigen::Vector2d& place : outline(0)) {
+      noisy.emplace_back(place.x() + 0.012 * rng.normal(), place.y() + 0.012 * rng.normal());
+    }
+  }
+  const Footprint footprint = fit_footprint(noisy, {});
+  EXPECT_NEAR(footprint.size().x(), kLength, 0.02);
+  EXPECT_NEAR(footprint.size().y(), kWidth, 0.02);
+  EXPECT_GT((footprint.outer_high - footprint.outer_low).x(), kLength + 0.04);
 }
 
 TEST(Footprint, MirrorsMoveNoSide) {
@@ -128,7 +145,7 @@ TEST(Footprint, FaceNobodyLookedAtStandsBackAndIsLessWellKnown) {
   const Footprint seen = as_seen(footprint, from_the_right, noise.setback);
   EXPECT_DOUBLE_EQ(seen.low.y(), footprint.low.y());
   EXPECT_NEAR(seen.high.y(), footprint.outer_high.y() + noise.setback.mean_m, 1e-12);
-  const Edges edges = edges_of(seen, from_the_right, noise);
+  const Edges edges = edges_of(seen, kBonnets, from_the_right, noise);
   EXPECT_NEAR(edges[1][1].sd - edges[1][0].sd, noise.setback.sd_m, 1e-12);
 }
 
@@ -142,7 +159,7 @@ TEST(Footprint, FaceSeenFromBesideIsAnOutline) {
   const Footprint seen = as_seen(footprint, from_behind, noise.setback);
   EXPECT_DOUBLE_EQ(seen.low.y(), footprint.outer_low.y());
   EXPECT_DOUBLE_EQ(seen.high.y(), footprint.outer_high.y());
-  const Edges edges = edges_of(seen, from_behind, noise);
+  const Edges edges = edges_of(seen, kBonnets, from_behind, noise);
   EXPECT_DOUBLE_EQ(edges[1][0].sd, edges[1][1].sd);
   EXPECT_GT(edges[1][0].sd, edges[0][0].sd) << "than of the face that it looks at";
   EXPECT_LT(edges[1][0].sd, edges[0][1].sd) << "than of the one behind the vehicle";
@@ -150,7 +167,8 @@ TEST(Footprint, FaceSeenFromBesideIsAnOutline) {
 
 /// Of beams from high above the rear that meet the ground beyond the front, clear of it from
 /// `free_from_m` beyond the edge on.
-Edges edges_over_the_roof(const Footprint& footprint, double free_from_m) {
+Edges edges_over_the_roof(const Footprint& footprint, double free_from_m,
+                          const std::array<double, 2>& tops = kBonnets) {
   const Eigen::Vector3d sensor(footprint.low.x() - 8, 0, 6);
   Window window;
   window.sensors = {sensor};
@@ -161,17 +179,27 @@ Edges edges_over_the_roof(const Footprint& footprint, double free_from_m) {
   }
   Beams beams;
   beams.fill(window);
-  return edges_of(footprint, {window.sensors, beams, Surroundings({}), SE3::Identity()}, {});
+  return edges_of(footprint, tops, {window.sensors, beams, Surroundings({}), SE3::Identity()}, {});
 }
 
 TEST(Footprint, HiddenEndLiesBetweenWhatWasSeenAndWhereBeamsWentThrough) {
   const Footprint footprint = fit_footprint(outline(0), {});
-  const double near = BeyondConfig().near_m;
+  const double near = BeyondConfig().near_m, share = ShadowConfig().share;
   const Edges edges = edges_over_the_roof(footprint, near + 0.6);
-  EXPECT_NEAR(edges[0][1].position, footprint.high.x() + 0.6 / 2, 1e-3);
+  EXPECT_NEAR(edges[0][1].position, footprint.high.x() + share * 0.6 / 2, 1e-3);
   EXPECT_DOUBLE_EQ(edges[0][0].position, footprint.low.x());
   const Edges nearer = edges_over_the_roof(footprint, near + 0.3);
-  EXPECT_NEAR(edges[0][1].sd - nearer[0][1].sd, 0.3 / std::sqrt(12), 1e-3);
+  EXPECT_NEAR(edges[0][1].sd - nearer[0][1].sd, share * 0.3 / std::sqrt(12), 1e-3);
+}
+
+TEST(Footprint, HighEndThrowsALongShadowAndLiesNearWhatWasSeen) {
+  const Footprint footprint = fit_footprint(outline(0), {});
+  const double free_from = BeyondConfig().near_m + 0.6;
+  const Edges low = edges_over_the_roof(footprint, free_from);
+  const Edges high = edges_over_the_roof(footprint, free_from, {1.6, 1.6});
+  EXPECT_LT(high[0][1].position, low[0][1].position - 0.1);
+  EXPECT_LT(high[0][1].sd, low[0][1].sd - 0.05);
+  EXPECT_DOUBLE_EQ(high[0][0].sd, low[0][0].sd) << "the rear was looked at";
 }
 
 TEST(Footprint, EndBeyondWhichNoBeamWentMayLieAnywhere) {

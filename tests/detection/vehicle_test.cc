@@ -114,6 +114,15 @@ TEST(Vehicle, HiddenEndOfAHighOneLiesFartherOut) {
   EXPECT_NEAR(length(1.3), length(1.5), 0.05);
 }
 
+TEST(Vehicle, HiddenSideOfAHighOneLiesFartherOut) {
+  const auto width = [](double height) {
+    Scene scene{{0, -8, 1.2}, {.height = height}};
+    scene.others = {{.y = 2.1, .length = 8, .height = 3}};
+    return scene.fit().cuboid.size.y();
+  };
+  EXPECT_NEAR(width(1.9) - width(1.5), 0.4 * TallConfig{}.width_per_m, 0.05);
+}
+
 /// Leaves of a bush about a place in the frame of a box.
 void add_leaves(const MadeBox& box, const Eigen::Vector3d& middle, double radius, int count,
                 std::vector<BodyPoint>& points) {

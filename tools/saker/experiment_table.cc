@@ -7,16 +7,12 @@
 #include <set>
 
 #include "core/statistics.h"
+#include "saker/target_figures.h"
 
 namespace saker::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kAll = "all";
-
-/// A figure of too few objects is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 void add_number(const Json& value, std::vector<double>& to) {
   if (value.is_number()) to.push_back(value.get<double>());
