@@ -83,7 +83,7 @@ struct PamsConfig {
     config.faces.hidden_m = 0.06;
     config.faces.hidden_side_m = 0.15;  // as slam.noise.fitted_hidden_side_m
     config.enough_entropy = -11;
-    config.most_size_sd_m = 0.07;  // errors go with what the map states
+    config.most_size_sd_m = 0.06;  // errors go with what the map states
     config.common_counts = true;
     config.map_counts = true;
     config.price_per_s = 0.3;

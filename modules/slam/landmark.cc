@@ -365,4 +365,12 @@ Eigen::MatrixXd named_covariance(const Landmark& landmark, const Eigen::MatrixXd
   return turned(Gaussian{landmark.model, covariance}, naming_turn(landmark)).covariance;
 }
 
+Eigen::Vector2d named_ends(const Landmark& landmark) {
+  if (!is_cuboid(landmark.model)) return SeenEnds().next;
+  const int axis = longer_axis(std::get<Cuboid>(landmark.model));
+  const Eigen::Vector2d named =
+      turned(Eigen::Vector2d(Eigen::Vector2d::Unit(axis)), naming_turn(landmark));
+  return named.x() > 0 ? landmark.ends.next : landmark.ends.next.reverse();
+}
+
 }  // namespace saker::slam

@@ -241,5 +241,8 @@ void remember(Landmark& landmark, const Observation& observation);
                                             const objects::ClassTable& table);
 [[nodiscard]] Eigen::MatrixXd named_covariance(const Landmark& landmark,
                                                const Eigen::MatrixXd& covariance);
+/// How well the rear and the front of a cuboid by that name were seen in two windows, m; infinite
+/// where they were not.
+[[nodiscard]] Eigen::Vector2d named_ends(const Landmark& landmark);
 
 }  // namespace saker::slam

@@ -174,15 +174,15 @@ Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covarianc
   return Eigen::Vector2d(mean - both, mean + both).cwiseMax(0);
 }
 
-void set_end_variances(Eigen::MatrixXd& covariance, int axis, const Eigen::Vector2d& variances) {
-  const int centre = 3 + axis, size = 6 + axis;
-  for (const int row : {centre, size}) {
-    covariance.row(row).setZero();
-    covariance.col(row).setZero();
+void raise_end_variances(Eigen::MatrixXd& covariance, int axis, const Eigen::Vector2d& variances) {
+  const Eigen::Vector2d lacking = variances - end_variances(covariance, axis);
+  for (int end = 0; end < 2; ++end) {
+    if (lacking[end] <= 0) continue;
+    Vector9d moved = Vector9d::Zero();  // the end by one
+    moved[3 + axis] = 0.5;
+    moved[6 + axis] = end == 0 ? -1 : 1;
+    covariance += lacking[end] * moved * moved.transpose();
   }
-  covariance(size, size) = variances.sum();
-  covariance(centre, centre) = 0.25 * variances.sum();
-  covariance(centre, size) = covariance(size, centre) = 0.5 * (variances[1] - variances[0]);
 }
 
 bool on_footprint(const Cuboid& cuboid, const Eigen::Vector3d& p) {

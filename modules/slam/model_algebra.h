@@ -52,8 +52,8 @@ struct Gaussian {
 [[nodiscard]] Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covariance,
                                             int axis);
 
-/// Puts the variances of the low and the high end in, which are independent then, also of the rest.
-void set_end_variances(Eigen::MatrixXd& covariance, int axis, const Eigen::Vector2d& variances);
+/// Adds what the low and the high end's variances lack of these; nothing else is known worse.
+void raise_end_variances(Eigen::MatrixXd& covariance, int axis, const Eigen::Vector2d& variances);
 
 /// Whether p, moved along z, lies on the cuboid's bottom.
 [[nodiscard]] bool on_footprint(const objects::Cuboid& cuboid, const Eigen::Vector3d& p);

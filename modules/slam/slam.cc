@@ -46,28 +46,32 @@ MeasurementNoiseConfig shared_noise(const SlamConfig& config) {
   return noise;
 }
 
-/// No end is known better than the window that saw it best: what others say of a hidden one is the
-/// size of its class, which is the same in all of them. Empty where none saw any.
-void limit_to_seen_ends(Eigen::MatrixXd& covariance, const Landmark& landmark) {
+/// No end of an incomplete object is known better than the window that saw it best: what others say
+/// of a hidden one is the size of its class, which is the same in all of them. Empty where none saw
+/// any.
+void limit_to_best(Eigen::MatrixXd& covariance, const Landmark& landmark) {
   if (!is_cuboid(landmark.model) || covariance.size() == 0) return;
-  const Eigen::Vector2d& seen = landmark.ends.best;
-  if (!seen.allFinite()) {
+  if (!landmark.ends.best.allFinite()) {
     covariance.resize(0, 0);
     return;
   }
-  const int axis = longer_axis(std::get<objects::Cuboid>(landmark.model));
-  const Eigen::Vector2d known = end_variances(covariance, axis);
-  set_end_variances(covariance, axis, known.cwiseMax(seen.cwiseAbs2()));
+  raise_end_variances(covariance, longer_axis(std::get<objects::Cuboid>(landmark.model)),
+                      landmark.ends.best.cwiseAbs2());
 }
 
-/// By its name, as far as its cells agree, and as wide as what windows share asks for; empty where
-/// nothing was measured.
+/// By its name, as far as its cells agree, as wide as what windows share asks for, and an end that
+/// none looked at no better known than what they share of it; empty where nothing was measured.
 Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
                         const SlamConfig& config) {
   if (given.covariance.size() == 0) return {};
   const Eigen::MatrixXd scattered =
       given.scatter.asDiagonal() * given.covariance * given.scatter.asDiagonal();
-  return widened(landmark.model, named_covariance(landmark, scattered), shared_noise(config));
+  Eigen::MatrixXd named =
+      widened(landmark.model, named_covariance(landmark, scattered), shared_noise(config));
+  const Eigen::Vector2d ends = config.noise.shared_end * named_ends(landmark);
+  if (is_cuboid(landmark.model) && ends.allFinite())
+    raise_end_variances(named, 0, ends.cwiseAbs2());
+  return named;
 }
 
 }  // namespace
@@ -291,7 +295,7 @@ objects::ObjectMap Slam::reported_map() const {
   for (objects::MapObject& object : map.incomplete) {
     const Landmark& landmark = landmark_of(object);
     GivenPoses given = given_poses(landmark, {&own, 1}, config_.graph);
-    limit_to_seen_ends(given.covariance, landmark);
+    limit_to_best(given.covariance, landmark);
     object.covariance = widened(landmark, given, config_);
   }
   return map;

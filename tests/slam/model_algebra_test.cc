@@ -112,11 +112,10 @@ TEST(ModelAlgebra, EndVariancesAreThoseOfCentreLessAndPlusHalfTheSize) {
   EXPECT_TRUE(end_variances(covariance, 1).isApprox(Eigen::Vector2d(low, high)));
 }
 
-TEST(ModelAlgebra, EndVariancesThatArePutInAreThose) {
+TEST(ModelAlgebra, AnEndIsMadeWorseKnownAndTheOtherStays) {
   Eigen::MatrixXd covariance = 0.3 * Matrix9d::Identity();
-  const Eigen::Vector2d variances(0.01, 0.8);
-  set_end_variances(covariance, 0, variances);
-  EXPECT_TRUE(end_variances(covariance, 0).isApprox(variances));
+  raise_end_variances(covariance, 0, {0.01, 0.8});
+  EXPECT_TRUE(end_variances(covariance, 0).isApprox(Eigen::Vector2d(0.375, 0.8)));
   EXPECT_TRUE(end_variances(covariance, 1).isApprox(Eigen::Vector2d(0.375, 0.375)));
   EXPECT_EQ(covariance.llt().info(), Eigen::Success);
 }

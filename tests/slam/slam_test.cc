@@ -116,6 +116,7 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
   for (const NoiseSource source : {NoiseSource::fixed, NoiseSource::fitted}) {
     SlamConfig config = honest_config();
     config.measurement_noise = source;
+    config.noise.shared_end = 0;
     Drive drive(config, Robot(ring_of_objects(12, 5), {.drawn = 0}, 1));
     drive.along(loop(12, 1, 1));
     const objects::ObjectMap own = drive.slam.map_with_covariance().map;
@@ -158,6 +159,28 @@ TEST(Slam, NoEndOfAnIncompleteObjectIsReportedBetterThanOneWindowSawIt) {
     EXPECT_GT(covariance(6, 6), 0.99 * of_a_window);
     EXPECT_LT(of_all(6, 6), 0.5 * of_a_window);
     EXPECT_DOUBLE_EQ(covariance(7, 7), of_all(7, 7)) << "the width is seen";
+  }
+}
+
+TEST(Slam, EndsAreReportedNoBetterKnownThanWhatTheirWindowsShare) {
+  const double of_a_window = Noise{}.object_size * Noise{}.object_size;
+  for (const double share : {0.0, 1.0}) {
+    SlamConfig config = honest_config();
+    config.noise.shared_end = share;
+    Drive drive(config, Robot(ring_of_objects(12, 5), {}, 1));
+    drive.along(loop(12, 1, 1));
+    for (const objects::ObjectMap& map :
+         {drive.slam.reported_map(), drive.slam.map_given_poses()}) {
+      for (const objects::MapObject& object : map.objects) {
+        if (!is_cuboid(object.model)) continue;
+        const double length = object.covariance(6, 6);
+        if (share > 0) {
+          EXPECT_GT(length, 0.8 * of_a_window);
+        } else {
+          EXPECT_LT(length, 0.5 * of_a_window);
+        }
+      }
+    }
   }
 }
 
