@@ -72,10 +72,10 @@ struct BeyondConfig {
     v.field("least_way_m", least_way_m, {0, 2}, "m",
             "of a beam within: deeper than what is met in a wheel arch");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
-    v.field(
-        "hidden_share", hidden_share, {0, 1}, "",
-        "of the way on to where beams went through, at which an end that no sensor looked at is "
-        "taken to lie: anywhere on it is as likely");
+    v.field("hidden_share", hidden_share, {0, 1}, "",
+            "of its part of the shadow, at which an end that no sensor looked at is taken to lie: "
+            "anywhere on it is as likely");
+    v.group("shadow", shadow, "how far into its shadow such an end may lie");
   }
 };
 
