@@ -91,9 +91,8 @@ objects::Cuboid end_of(const Footprint& footprint, int end, double inward,
   return upright(footprint.direction, {low, high}, {config.lowest_m, config.highest_m});
 }
 
-/// How high what was seen of an end is; 0 where nothing was.
-double top_of_end(const std::vector<BodyPoint>& points, const objects::Cuboid& end,
-                  double percentile) {
+/// Those of the points that lie over or under the slab.
+std::vector<BodyPoint> points_of(const objects::Cuboid& end, const std::vector<BodyPoint>& points) {
   const SE3 T_end_local = end.pose.inverse();
   const Eigen::Vector2d half = 0.5 * end.size.head<2>();
   std::vector<BodyPoint> own;
@@ -101,17 +100,17 @@ double top_of_end(const std::vector<BodyPoint>& points, const objects::Cuboid& e
     const Eigen::Vector3d at = T_end_local * p.position.cast<double>();
     return std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y();
   });
-  return own.empty() ? 0 : top_of(own, percentile);
+  return own;
 }
 
-/// Of the low and the high end of the footprint's first axis.
+/// How high what was seen of the low and of the high end is; 0 where nothing was.
 std::array<double, 2> tops_of_ends(const Footprint& footprint, const std::vector<BodyPoint>& points,
                                    const VehicleConfig& config) {
   const ShadowConfig& shadow = config.noise.beyond.shadow;
   std::array<double, 2> tops{};
   for (int end = 0; end < 2; ++end) {
-    tops[end] =
-        top_of_end(points, end_of(footprint, end, shadow.depth_m, config), shadow.top_percentile);
+    const auto own = points_of(end_of(footprint, end, shadow.depth_m, config), points);
+    if (!own.empty()) tops[end] = top_of(own, shadow.top_percentile);
   }
   return tops;
 }
@@ -120,12 +119,8 @@ std::array<double, 2> tops_of_ends(const Footprint& footprint, const std::vector
 /// be of none do not count. Not to a side's: sides err no more there.
 double doubt_amid_others(const std::vector<BodyPoint>& points, const objects::Cuboid& end,
                          const Sight& sight, const AmidOthersConfig& config) {
-  const SE3 T_end_local = end.pose.inverse();
-  const Eigen::Vector2d half = 0.5 * end.size.head<2>();
-  const auto own = std::ranges::count_if(points, [&](const BodyPoint& p) {
-    const Eigen::Vector3d at = T_end_local * p.position.cast<double>();
-    return p.probability >= config.sure_probability && std::abs(at.x()) < half.x() &&
-           std::abs(at.y()) < half.y();
+  const auto own = std::ranges::count_if(points_of(end, points), [&](const BodyPoint& p) {
+    return p.probability >= config.sure_probability;
   });
   const double others = sight.others(end);
   return others > config.share * (others + static_cast<double>(own)) ? config.sd_m : 0;

@@ -52,7 +52,7 @@ struct Gaussian {
 [[nodiscard]] Eigen::Vector2d end_variances(const Eigen::Ref<const Eigen::MatrixXd>& covariance,
                                             int axis);
 
-/// Adds what the low and the high end's variances lack of these; nothing else is known worse.
+/// Adds what the low and the high end's variances lack of these; the other end and the sides stay.
 void raise_end_variances(Eigen::MatrixXd& covariance, int axis, const Eigen::Vector2d& variances);
 
 /// Whether p, moved along z, lies on the cuboid's bottom.
