@@ -7,32 +7,34 @@
 namespace saker::active {
 namespace {
 
-/// sd beside the fitted one of faces across that axis that are not looked at.
+/// sd of faces across that axis that are not looked at.
 double hidden_sd(int axis, const Eigen::Vector2d& eye, const FacesConfig& config) {
-  if (axis == 0 || eye.squaredNorm() <= 0) return config.hidden_m;
-  const double beside = eye.y() * eye.y() / eye.squaredNorm();  // sin² of the bearing
-  return std::hypot(config.hidden_m, config.hidden_side_m * beside);
+  if (axis == 0) return config.hidden_end_m;
+  if (eye.squaredNorm() <= 0) return config.hidden_side_m;
+  return config.hidden_side_m * eye.y() * eye.y() / eye.squaredNorm();  // sin² of the bearing
 }
 
 }  // namespace
 
-Covariance by_faces(const Covariance& covariance, double whole, const Eigen::Vector2d& eye,
-                    const Eigen::Vector2d& size, const FacesConfig& config) {
+Measured by_faces(const Covariance& covariance, double whole, const Eigen::Vector2d& eye,
+                  const Eigen::Vector2d& size, const FacesConfig& config) {
+  Measured measured;
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   for (int axis = 0; axis < 2; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       const double outside = sign * eye[axis] - 0.5 * size[axis];
       const double looked_at = std::clamp(outside / config.outside_m, 0.0, 1.0);
-      const double hidden = hidden_sd(axis, eye, config) * (1 - looked_at);
       const double windows = looked_at + (1 - looked_at) * whole;
       Eigen::Vector4d face = Eigen::Vector4d::Zero();
       face[axis] = sign;
       face[2 + axis] = 0.5;
-      const double variance = face.dot(covariance * face) / windows + hidden * hidden;
-      information += face * face.transpose() / variance;
+      information += windows / face.dot(covariance * face) * face * face.transpose();
+      measured.hidden[2 * axis + (sign > 0 ? 0 : 1)] =
+          hidden_sd(axis, eye, config) * (1 - looked_at);
     }
   }
-  return Covariance(information.inverse());
+  measured.covariance = information.inverse();
+  return measured;
 }
 
 }  // namespace saker::active

@@ -6,8 +6,6 @@
 namespace saker::active {
 namespace {
 
-using Eigen::Matrix4d;
-
 bool is_cylinder(objects::ClassId class_id, const ViewModel& model) {
   return model.common(class_id).rows() == 2;
 }
@@ -18,10 +16,9 @@ Covariance counted_common(const Target& target, const ViewModel& model, const Pa
 }
 
 /// What one look tells, if x and y have drifted since the first one.
-Matrix4d information(const uncertainty::Prediction& prediction, double flown_m,
-                     const PamsConfig& config) {
+Information information(const Measured& measured, double flown_m, const PamsConfig& config) {
   const double drift = config.drift_counts ? config.drift_m * config.drift_m * flown_m : 0;
-  return information_of(prediction.covariance, drift);
+  return information_of(measured, drift);
 }
 
 }  // namespace
@@ -36,19 +33,17 @@ uncertainty::View view_from(const Eigen::Vector3d& eye, const Target& target,
   return uncertainty::view_of(eye, cylinder);
 }
 
-uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& target,
-                                  const ViewModel& model, const PamsConfig& config) {
-  uncertainty::Prediction prediction =
+PredictedView predicted(const Eigen::Vector3d& eye, const Target& target, const ViewModel& model,
+                        const PamsConfig& config) {
+  const uncertainty::Prediction fitted =
       model.predict(target.class_id, view_from(eye, target, model));
-  const bool by_face = config.faces.hidden_m > 0 || config.faces.hidden_side_m > 0;
-  if (by_face && !is_cylinder(target.class_id, model)) {
-    const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
-    prediction.covariance = by_faces(prediction.covariance, prediction.whole, in_box.head<2>(),
-                                     target.extent.size.head<2>(), config.faces);
-  } else {
-    prediction.covariance /= prediction.whole;
+  const bool by_face = config.faces.hidden_end_m > 0 || config.faces.hidden_side_m > 0;
+  if (!by_face || is_cylinder(target.class_id, model)) {
+    return {fitted.cell, {fitted.covariance / fitted.whole}};
   }
-  return prediction;
+  const Eigen::Vector3d in_box = target.extent.pose.inverse() * eye;
+  return {fitted.cell, by_faces(fitted.covariance, fitted.whole, in_box.head<2>(),
+                                target.extent.size.head<2>(), config.faces)};
 }
 
 Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
@@ -65,14 +60,15 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
       belief_(prior_covariance(config, is_cylinder(target.class_id, model)), common_) {
   struct Cell {
     double seconds = 0;
-    Matrix4d weighted = Matrix4d::Zero();  // Σ seconds · information
+    Information weighted = Information::Zero();  // Σ seconds · information
   };
   std::map<int, Cell> cells;
   for (const Looks::Look& look : looks.all()) {
-    const uncertainty::Prediction prediction = predicted(look.eye, target, model, config);
-    Cell& cell = cells[prediction.cell];
+    const PredictedView view = predicted(look.eye, target, model, config);
+    Cell& cell = cells[view.cell];
     cell.seconds += look.seconds;
-    cell.weighted += look.seconds * information(prediction, look.flown_m - looks.first_m(), config);
+    cell.weighted +=
+        look.seconds * information(view.measured, look.flown_m - looks.first_m(), config);
   }
   for (const auto& [id, cell] : cells) {
     if (cell.seconds < config.dwell_s) continue;
@@ -82,7 +78,7 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
 }
 
 Belief Knowledge::expected(const Covariance& covariance, const Knowledge& then) const {
-  Belief belief(covariance, common_);
+  Belief belief = belief_.known_to(covariance);
   const double scatter = scatter_of(belief);
   for (const auto& [id, information] : then.cells_) {
     if (!counted(id)) belief.add(information / scatter);

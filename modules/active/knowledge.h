@@ -14,10 +14,15 @@ namespace saker::active {
 [[nodiscard]] uncertainty::View view_from(const Eigen::Vector3d& eye, const Target& target,
                                           const ViewModel& model);
 
-/// What a view from `eye` (world) tells of the target. One that shows it from end to end in one of
+struct PredictedView {
+  int cell = -1;  ///< of the uncertainty model
+  Measured measured;
+};
+
+/// How a view from `eye` (world) measures the target. One that shows it from end to end in one of
 /// n windows tells a nth; told face by face, of those that it does not look at.
-[[nodiscard]] uncertainty::Prediction predicted(const Eigen::Vector3d& eye, const Target& target,
-                                                const ViewModel& model, const PamsConfig& config);
+[[nodiscard]] PredictedView predicted(const Eigen::Vector3d& eye, const Target& target,
+                                      const ViewModel& model, const PamsConfig& config);
 
 /// What the flight so far tells of one target: the paper's recursion over the cells of the model
 /// from which it was in view for a dwell. However long that was, a cell counts once: with the mean
@@ -42,7 +47,7 @@ class Knowledge {
 
   Covariance common_;  ///< as far as it counts
   Belief belief_;
-  std::map<int, Eigen::Matrix4d> cells_;  ///< that count, and their information
+  std::map<int, Information> cells_;  ///< that count, and their information
 };
 
 /// What the map will know of the target when it holds the looks `until`; SLAM counts a cell from

@@ -235,11 +235,11 @@ std::vector<Sight> PamsPolicy::sights(const Viewpoint& from, const Choice& choic
   for (int object = 0; object < static_cast<int>(choice.together.size()); ++object) {
     const Target& target = targets_[choice.together[object]];
     if (object > 0 && !sees(eye, from.yaw, target, config_.view.margin_deg)) continue;
-    const uncertainty::Prediction prediction = predicted(eye, target, model_, pams_);
+    const PredictedView view = predicted(eye, target, model_, pams_);
     const double near_s =
         looks_[choice.together[object]].so_far().seconds_near(eye, pams_.looked_from.near_m);
-    if (choice.known[object].counted(prediction.cell) || near_s >= pams_.dwell_s) continue;
-    told.push_back({object, prediction.cell, prediction.covariance});
+    if (choice.known[object].counted(view.cell) || near_s >= pams_.dwell_s) continue;
+    told.push_back({object, view.cell, view.measured});
   }
   return told;
 }

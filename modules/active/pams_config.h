@@ -80,8 +80,8 @@ struct PamsConfig {
     config.looked_from.near_m = 0.5;  // beyond what an estimate trembles by, well within a cell
     config.prior_length_m = 0.45;
     config.prior_width_m = 0.12;
-    config.faces.hidden_m = 0.06;
-    config.faces.hidden_side_m = 0.15;  // as slam.noise.fitted_hidden_side_m
+    config.faces.hidden_end_m = 0.08;  // lengths with one were off by 0.06 m, widths by 0.04 m
+    config.faces.hidden_side_m = 0.08;
     config.enough_entropy = -11;
     config.most_size_sd_m = 0.06;  // errors go with what the map states
     config.common_counts = true;

@@ -38,7 +38,7 @@ void look(State& state, const Sight& sight, const PathProblem& problem) {
   state.seen.push_back(cell);
   Belief& belief = state.beliefs[sight.object];
   const double before = belief.entropy();
-  belief.add(information_of(sight.covariance, drift(sight, state.flown_m, problem)));
+  belief.add(information_of(sight.measured, drift(sight, state.flown_m, problem)));
   state.path.gain += before - belief.entropy();
 }
 
@@ -98,7 +98,7 @@ void search_by_beam(const State& start, const PathProblem& problem, std::size_t 
 double most_gain(const PathProblem& problem, int stop, const std::vector<Belief>& beliefs) {
   double sum = 0;
   for (const Sight& sight : problem.stops[stop]) {
-    sum += beliefs[sight.object].most_gain(information_of(sight.covariance, 0));
+    sum += beliefs[sight.object].most_gain(information_of(sight.measured, 0));
   }
   return sum;
 }

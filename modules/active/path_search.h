@@ -16,9 +16,9 @@ namespace saker::active {
 
 /// What a viewpoint tells of one object.
 struct Sight {
-  int object = -1;        ///< index into PathProblem::objects
-  int cell = -1;          ///< of the uncertainty model: counts once an object
-  Covariance covariance;  ///< Σ_z, as uncertainty::Prediction's
+  int object = -1;  ///< index into PathProblem::objects
+  int cell = -1;    ///< of the uncertainty model: counts once an object
+  Measured measured;
 };
 
 struct PathProblem {

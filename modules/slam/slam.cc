@@ -68,9 +68,11 @@ Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
       given.scatter.asDiagonal() * given.covariance * given.scatter.asDiagonal();
   Eigen::MatrixXd named =
       widened(landmark.model, named_covariance(landmark, scattered), shared_noise(config));
-  const Eigen::Vector2d ends = config.noise.shared_end * named_ends(landmark);
-  if (is_cuboid(landmark.model) && ends.allFinite())
-    raise_end_variances(named, 0, ends.cwiseAbs2());
+  const Eigen::Vector2d ends = named_ends(landmark);
+  if (is_cuboid(landmark.model) && ends.allFinite()) {
+    const Eigen::Array2d shares = (config.noise.shared_end_per_m * ends.array()).min(1);
+    raise_end_variances(named, 0, (shares * ends.array()).square());
+  }
   return named;
 }
 

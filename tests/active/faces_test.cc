@@ -16,8 +16,9 @@ Covariance of_faces() {
   return Covariance(Eigen::Vector4d(face / 2, face / 2, 2 * face, 2 * face).asDiagonal());
 }
 
-Covariance seen_from(double x, double y, double whole = 1) {
-  return by_faces(of_faces(), whole, {x, y}, kSize, {.hidden_m = kHidden});
+Measured seen_from(double x, double y, double whole = 1) {
+  return by_faces(of_faces(), whole, {x, y}, kSize,
+                  {.hidden_end_m = kHidden, .hidden_side_m = kHidden});
 }
 
 /// Variance of the face on that side of an axis.
@@ -28,48 +29,48 @@ double face(const Covariance& covariance, int axis, double sign) {
   return a.dot(covariance * a);
 }
 
-TEST(Faces, ThoseThatAreLookedAtAreKnownAsTheModelSays) {
-  const Covariance oblique = seen_from(8, -6);
-  EXPECT_NEAR(face(oblique, 0, 1), 0.05 * 0.05, 1e-9);
-  EXPECT_NEAR(face(oblique, 1, -1), 0.05 * 0.05, 1e-9);
+Belief after(const std::vector<Measured>& views) {
+  Belief belief(10 * Eigen::Matrix4d::Identity(), Eigen::Matrix4d::Zero());
+  for (const Measured& view : views) belief.add(information_of(view, 0));
+  return belief;
 }
 
-TEST(Faces, ThoseThatAreNotAreKnownLess) {
-  const Covariance oblique = seen_from(8, -6);
-  const double hidden = 0.05 * 0.05 + kHidden * kHidden;
-  EXPECT_NEAR(face(oblique, 0, -1), hidden, 1e-9);
-  EXPECT_NEAR(face(oblique, 1, 1), hidden, 1e-9);
+TEST(Faces, ThoseThatAreLookedAtAreKnownAsTheModelSaysAndTheOthersHidden) {
+  const Measured oblique = seen_from(8, -6);
+  EXPECT_TRUE(oblique.covariance.isApprox(of_faces(), 1e-9));
+  EXPECT_EQ(oblique.hidden[0], 0);  // front
+  EXPECT_EQ(oblique.hidden[1], kHidden);
+  EXPECT_NEAR(oblique.hidden[2], 0.36 * kHidden, 1e-9);  // left
+  EXPECT_EQ(oblique.hidden[3], 0);
 }
 
 TEST(Faces, ThoseThatAreNotAreKnownInWindowsThatShowTheWholeBoxAlone) {
-  const Covariance seldom = seen_from(8, -6, 0.25);
-  EXPECT_NEAR(face(seldom, 0, 1), 0.05 * 0.05, 1e-9);
-  EXPECT_NEAR(face(seldom, 0, -1), 4 * 0.05 * 0.05 + kHidden * kHidden, 1e-9);
+  const Measured seldom = seen_from(8, -6, 0.25);
+  EXPECT_NEAR(face(seldom.covariance, 0, 1), 0.05 * 0.05, 1e-9);
+  EXPECT_NEAR(face(seldom.covariance, 0, -1), 4 * 0.05 * 0.05, 1e-9);
 }
 
-TEST(Faces, FromBesideNeitherEndIsLookedAt) {
-  const Covariance beside = seen_from(0, 7);
-  EXPECT_GT(face(beside, 0, 1), kHidden * kHidden);
-  EXPECT_GT(face(beside, 0, -1), kHidden * kHidden);
+TEST(Faces, FromBesideNeitherEndIsLookedAtAndTheFarSideIsHidden) {
+  EXPECT_EQ(seen_from(0, 7).hidden, Eigen::Vector4d(kHidden, kHidden, 0, kHidden));
 }
 
-TEST(Faces, TheFarSideIsHiddenFromBesideAndHardlyFromAnEnd) {
-  const auto far_side = [](double x, double y) {
-    return face(by_faces(of_faces(), 1, {x, y}, kSize, {.hidden_side_m = kHidden}), 1, -1);
-  };
-  EXPECT_NEAR(far_side(0, 7), 0.05 * 0.05 + kHidden * kHidden, 1e-9);
-  EXPECT_NEAR(far_side(7, 7), 0.05 * 0.05 + kHidden * kHidden / 4, 1e-9);
-  EXPECT_LT(far_side(9, 3), 0.05 * 0.05 + kHidden * kHidden / 50);
+TEST(Faces, FromAnEndTheSidesAreHardlyHidden) { EXPECT_LT(seen_from(9, 3).hidden[3], kHidden / 9); }
+
+TEST(Faces, ManyLooksFromOneSideDoNotTellWhereTheHiddenEndIs) {
+  const Belief behind = after(std::vector<Measured>(1000, seen_from(-8, 6)));
+  EXPECT_NEAR(face(Covariance(behind.covariance()), 0, 1), kHidden * kHidden, 1e-3);
+  EXPECT_LT(face(Covariance(behind.covariance()), 0, -1), 1e-4);
 }
 
 TEST(Faces, ALookFromTheOtherSideTellsMoreThanOneMoreFromThisSide) {
-  const Eigen::Matrix4d first = seen_from(8, -6).inverse();
-  const Eigen::Matrix4d beside = seen_from(6, -8).inverse(), across = seen_from(-8, 6).inverse();
-  EXPECT_GT((first + across).determinant(), 4 * (first + beside).determinant());
+  const Measured first = seen_from(8, -6), beside = seen_from(6, -8), across = seen_from(-8, 6);
+  EXPECT_LT(after({first, across}).entropy(), after({first, beside}).entropy() - 1);
 }
 
 TEST(Faces, WithoutHiddenOnesAreTheModels) {
-  EXPECT_TRUE(by_faces(of_faces(), 1, {8, -6}, kSize, {}).isApprox(of_faces(), 1e-9));
+  const Measured measured = by_faces(of_faces(), 1, {8, -6}, kSize, {});
+  EXPECT_TRUE(measured.covariance.isApprox(of_faces(), 1e-9));
+  EXPECT_EQ(measured.hidden, Eigen::Vector4d::Zero());
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(Predicted, AViewThatShowsAVehicleEveryFourthTimeTellsAQuarter) {
     return prediction;
   };
   const auto of = [](const ViewModel& model) {
-    return predicted(eye_at(pi / 4), car_at_origin(), model, config_with()).covariance;
+    return predicted(eye_at(pi / 4), car_at_origin(), model, config_with()).measured.covariance;
   };
   EXPECT_TRUE(of(seldom).isApprox(4 * of(oblique_model()), 1e-9));
 }

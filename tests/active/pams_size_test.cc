@@ -182,7 +182,9 @@ TEST(PamsSize, PolicyPaperAsksForTheDeterminantAlone) {
 /// It is late: what was seen since then will be in it.
 TEST(PamsSize, WhatTheMapDoesNotHoldYetCounts) {
   const auto goals = [](std::optional<Time> map_stamp) {
-    KnownButForItsLength flight(easily_enough());
+    PamsConfig config = easily_enough();
+    config.most_size_sd_m = 0.1;
+    KnownButForItsLength flight(config);
     flight.know_length_to(0.3);
     flight.input.map_stamp = map_stamp;
     flight.fly(600);

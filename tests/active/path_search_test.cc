@@ -25,7 +25,7 @@ PathProblem problem_at(const std::vector<Eigen::Vector2d>& places,
   problem.to_m = problem.on_s = Eigen::VectorXd::Zero(count);
   problem.between_m = Eigen::MatrixXd::Zero(count, count);
   for (int i = 0; i < count; ++i) {
-    problem.stops.push_back({{0, i, noise(variances[i])}});
+    problem.stops.push_back({{0, i, {noise(variances[i])}}});
     problem.to_m[i] = places[i].norm();
     for (int j = 0; j < count; ++j) problem.between_m(i, j) = (places[i] - places[j]).norm();
   }
@@ -51,7 +51,7 @@ PathProblem random_problem(core::Rng& rng, int stops, int horizon) {
       for (double& x : root.reshaped()) x = 0.15 * rng.normal();
       const Covariance covariance = root * root.transpose() + 0.005 * Matrix4d::Identity();
       const int cell = static_cast<int>(8 * rng.uniform());
-      if (object == 0 || rng.uniform() < 0.3) sights.push_back({object, cell, covariance});
+      if (object == 0 || rng.uniform() < 0.3) sights.push_back({object, cell, {covariance}});
     }
   }
   return problem;
@@ -195,7 +195,7 @@ TEST(Beam, OfSixtyMissesHardlyAnything) {
 
 TEST(Beam, FindsTheOnlyPathThatIsWorthIt) {
   PathProblem problem = problem_at(on_a_line(30), std::vector<double>(30, 1e6), 1);
-  problem.stops[17][0].covariance = noise(0.01);
+  problem.stops[17][0].measured.covariance = noise(0.01);
   problem.most_paths = 1;
   EXPECT_EQ(choose_path(problem).best.stops, std::vector<int>{17});
 }

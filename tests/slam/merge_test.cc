@@ -60,7 +60,7 @@ TEST(Merge, TwoRobotsKnowMoreThanOne) {
 
 TEST(Merge, WhatIsReportedIsWidenedAndHasWhatMeasurementsHaveInCommon) {
   SlamConfig config = honest_config();
-  config.noise.shared_end = 0;
+  config.noise.shared_end_per_m = 0;
   const Flown flown = fly(ring_of_objects(20, 10), loop(20, 0.6, 1), {.drawn = 0}, 11);
   MultiRobotSlam merged(config, {});
   (void)merged.add(flown.history, exact(flown.T_town_odom), kPlenty);

@@ -116,7 +116,7 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
   for (const NoiseSource source : {NoiseSource::fixed, NoiseSource::fitted}) {
     SlamConfig config = honest_config();
     config.measurement_noise = source;
-    config.noise.shared_end = 0;
+    config.noise.shared_end_per_m = 0;
     Drive drive(config, Robot(ring_of_objects(12, 5), {.drawn = 0}, 1));
     drive.along(loop(12, 1, 1));
     const objects::ObjectMap own = drive.slam.map_with_covariance().map;
@@ -164,9 +164,9 @@ TEST(Slam, NoEndOfAnIncompleteObjectIsReportedBetterThanOneWindowSawIt) {
 
 TEST(Slam, EndsAreReportedNoBetterKnownThanWhatTheirWindowsShare) {
   const double of_a_window = Noise{}.object_size * Noise{}.object_size;
-  for (const double share : {0.0, 1.0}) {
+  for (const double share_per_m : {0.0, 1000.0}) {
     SlamConfig config = honest_config();
-    config.noise.shared_end = share;
+    config.noise.shared_end_per_m = share_per_m;
     Drive drive(config, Robot(ring_of_objects(12, 5), {}, 1));
     drive.along(loop(12, 1, 1));
     for (const objects::ObjectMap& map :
@@ -174,7 +174,7 @@ TEST(Slam, EndsAreReportedNoBetterKnownThanWhatTheirWindowsShare) {
       for (const objects::MapObject& object : map.objects) {
         if (!is_cuboid(object.model)) continue;
         const double length = object.covariance(6, 6);
-        if (share > 0) {
+        if (share_per_m > 0) {
           EXPECT_GT(length, 0.8 * of_a_window);
         } else {
           EXPECT_LT(length, 0.5 * of_a_window);
