@@ -64,10 +64,12 @@ double free_from(const Footprint& footprint, int k, int end, const Sight& sight,
   return sight.nearest(box, config.beams, least_way_m);
 }
 
-/// Of its shadow, in which an end as high as `top` may lie.
-double shadow_share(double top, const ShadowConfig& config) {
-  const double higher = std::max(0.0, top - config.bonnet_m);
-  return std::max(config.least_share, config.share - config.share_per_m * higher);
+/// Of its shadow, at which an end as high as `top` lies where the other one is as high as `other`.
+double place_in_shadow(double top, double other, const ShadowConfig& config) {
+  const double front = std::clamp(0.5 + 0.5 * (other - top) / config.apart_m, 0.0, 1.0);
+  const double of_front = std::clamp(config.place - config.place_per_m * (top - config.bonnet_m),
+                                     config.least_place, 1.0);
+  return std::lerp(config.least_place, of_front, front);
 }
 
 }  // namespace
@@ -115,8 +117,9 @@ Edges edges_of(const Footprint& footprint, const std::array<double, 2>& tops, co
       edge.hidden_m = free_from(footprint, k, end, sight, noise.beyond);
       double way = edge.hidden_m, outward = 0;
       if (k == 0 && std::isfinite(way)) {
-        way *= std::lerp(shadow_share(tops[end], noise.beyond.shadow), 1.0, looked[end]);
-        outward = (1 - looked[end]) * noise.beyond.hidden_share * way;
+        const ShadowConfig& shadow = noise.beyond.shadow;
+        outward = (1 - looked[end]) * place_in_shadow(tops[end], tops[1 - end], shadow) * way;
+        way *= std::lerp(shadow.spread, 1.0, looked[end]);
       }
       const double setback =
           (1 - looked[end]) * std::lerp(noise.setback.outline, 1.0, looked[1 - end]);

@@ -29,8 +29,8 @@ using Edges = std::array<std::array<FootprintEdge, 2>, 2>;  ///< [axis][low, hig
 /// Where the edges of a footprint whose first axis is the length are, and how well that is known.
 /// What hides an edge, or loses its points, only takes away: that the vehicle ends there is seen by
 /// beams that went through where it would go on. An end that no sensor looked at is hidden behind
-/// the roof: it lies anywhere in the first part of the shadow between what was seen and where beams
-/// went through. Sides are as wide as the roof, whose edge is seen.
+/// the roof: it lies in the shadow between what was seen and where beams went through, a front
+/// farther out than a tail. Sides are as wide as the roof, whose edge is seen.
 /// \param tops of what was seen of the low and the high end of the first axis, m above the ground
 [[nodiscard]] Edges edges_of(const Footprint& footprint, const std::array<double, 2>& tops,
                              const Sight& sight, const VehicleNoiseConfig& noise);

@@ -23,24 +23,34 @@
 namespace saker::detection {
 
 /// Where in its shadow, between what was seen of it and where beams went through, an end lies that
-/// no sensor looked at: the higher it is, the longer the shadow that it throws beyond itself.
+/// no sensor looked at: behind the rounded edge of a bonnet the bumper stands out, an upright tail
+/// throws a long shadow beyond itself. The lower end is the front (paper, III-A).
 struct ShadowConfig {
   double bonnet_m = 0.75;
-  double share = 0.9;
-  double share_per_m = 0.6;
-  double least_share = 0.2;
+  double place = 0.85;
+  double place_per_m = 1.3;
+  double least_place = 0.2;
+  double apart_m = 0.05;
+  double spread = 0.85;
   double depth_m = 0.4;
   double top_percentile = 90;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("bonnet_m", bonnet_m, {0, 5}, "m", "height of the lowest ends above the ground");
-    v.field("share", share, {0, 1}, "",
-            "of the shadow, from what was seen on, in which the end of one as low as that lies");
-    v.field("share_per_m", share_per_m, {0, 10}, "1/m",
-            "less of it by how much higher the end is: with both, 36 simulated missions' median "
-            "ends, 0.4 of the shadow for bonnets, 0.15 for the tails of vans");
-    v.field("least_share", least_share, {0.01, 1}, "", "of however high an end");
+    v.field("bonnet_m", bonnet_m, {0, 5}, "m", "height of a low bonnet's end above the ground");
+    v.field(
+        "place", place, {0, 1}, "",
+        "of the shadow, from what was seen on, at which the lower end lies where it is as high");
+    v.field("place_per_m", place_per_m, {0, 10}, "1/m",
+            "less of it by how much higher it is: with both, the median fronts of 101 vehicles in "
+            "eleven simulated flights");
+    v.field("least_place", least_place, {0, 1}, "",
+            "of however high a one, and of the higher end: their median tails");
+    v.field("apart_m", apart_m, {0.001, 1}, "m",
+            "by which the lower end must be lower to be surely the front");
+    v.field("spread", spread, {0, 10}, "",
+            "of the shadow, the width in which it lies about its place: theirs scatter by 0.2 "
+            "(tails) and 0.3 of the shadow (fronts)");
     v.field("depth_m", depth_m, {0.05, 2}, "m",
             "inward from the end: how high what was seen of it is, is told there");
     v.field("top_percentile", top_percentile, {50, 100}, "%", "of the heights there");
@@ -56,7 +66,6 @@ struct BeyondConfig {
   double highest_m = 0.65;
   double least_way_m = 0.2;
   int beams = 3;
-  double hidden_share = 0.5;
   ShadowConfig shadow;
 
   template <class Visitor>
@@ -72,10 +81,7 @@ struct BeyondConfig {
     v.field("least_way_m", least_way_m, {0, 2}, "m",
             "of a beam within: deeper than what is met in a wheel arch");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
-    v.field("hidden_share", hidden_share, {0, 1}, "",
-            "of its part of the shadow, at which an end that no sensor looked at is taken to lie: "
-            "anywhere on it is as likely");
-    v.group("shadow", shadow, "how far into its shadow such an end may lie");
+    v.group("shadow", shadow, "where in its shadow an end lies that no sensor looked at");
   }
 };
 

@@ -76,7 +76,7 @@ double turned(const objects::Cuboid& cuboid, double yaw) {
 TEST(Vehicle, IsMeasuredFromAnObliqueView) {
   for (const double yaw : {0.0, 0.4, 1.2, 2.3, -0.8}) {
     Scene scene{{0, 0, 4}, {10, 2, yaw}};
-    scene.config.noise.beyond.hidden_share = 0;  // a box's roof reaches as far as its ends
+    scene.config.noise.beyond.shadow.least_place = 0;  // a box's roof reaches as far as its ends
     const VehicleFit fit = scene.fit();
     ASSERT_EQ(fit.status, VehicleStatus::fitted) << yaw;
     EXPECT_NEAR(fit.cuboid.size.x(), 4.5, 0.15) << yaw;
