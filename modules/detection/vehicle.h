@@ -43,7 +43,7 @@ struct ShadowConfig {
         "of the shadow, from what was seen on, at which the lower end lies where it is as high");
     v.field("place_per_m", place_per_m, {0, 10}, "1/m",
             "less of it by how much higher it is: with both, the median fronts of 101 vehicles in "
-            "eleven simulated flights");
+            "eight simulated flights");
     v.field("least_place", least_place, {0, 1}, "",
             "of however high a one, and of the higher end: their median tails");
     v.field("apart_m", apart_m, {0.001, 1}, "m",

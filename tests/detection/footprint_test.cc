@@ -195,13 +195,14 @@ TEST(Footprint, HiddenEndLiesBetweenWhatWasSeenAndWhereBeamsWentThrough) {
 
 TEST(Footprint, HiddenTailLiesNearWhatWasSeenAndABonnetFartherOutTheLowerItIs) {
   const Footprint footprint = fit_footprint(outline(0), {});
-  const auto position = [&](double top, double other) {
-    const double free_from = BeyondConfig().near_m + 0.6;
-    return edges_over_the_roof(footprint, free_from, {other, top})[0][1].position;
+  const auto ends = [&](double top, double other) {
+    return edges_over_the_roof(footprint, BeyondConfig().near_m + 0.6, {other, top})[0];
   };
+  const auto position = [&](double top, double other) { return ends(top, other)[1].position; };
   EXPECT_LT(position(1.2, 0.75), position(1.0, 1.6) - 0.1) << "a tail, a high bonnet";
   EXPECT_LT(position(1.0, 1.6), position(0.75, 1.6) - 0.1);
   EXPECT_NEAR(position(1, 1), (position(1, 2) + position(1, 0.5)) / 2, 1e-3) << "may be either";
+  EXPECT_DOUBLE_EQ(ends(1.6, 0.75)[0].sd, ends(0.75, 1.6)[0].sd) << "the rear was looked at";
 }
 
 TEST(Footprint, EndBeyondWhichNoBeamWentMayLieAnywhere) {
