@@ -10,17 +10,18 @@ namespace {
 constexpr std::array kScales = {30.0, 8.0, 3.0, 1.0, 1.0};  // of the last one
 
 /// Cauchy-weighted plane z = a x + b y + c, (a, b) with a Gaussian prior.
-Eigen::Vector3d fit_plane(const std::vector<Eigen::Vector3d>& points, const GroundConfig& config) {
-  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+Eigen::Vector3d fit_plane(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector2d& slope,
+                          double slope_sd, const GroundConfig& config) {
+  Eigen::Vector3d plane(slope.x(), slope.y(), 0);
   std::vector<double> heights;
   heights.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) heights.push_back(p.z());
+  for (const Eigen::Vector3d& p : points) heights.push_back(p.z() - slope.dot(p.head<2>()));
   std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
   plane.z() = heights[heights.size() / 2];
-  const double ridge = std::pow(config.noise_m / config.slope_sd, 2);
+  const double ridge = std::pow(config.noise_m / slope_sd, 2);
   for (const double scale : kScales) {
     Eigen::Matrix3d H = Eigen::Vector3d(ridge, ridge, 1e-9).asDiagonal();
-    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    Eigen::Vector3d g(ridge * slope.x(), ridge * slope.y(), 0);
     for (const Eigen::Vector3d& p : points) {
       const Eigen::Vector3d row(p.x(), p.y(), 1);
       const double residual = (p.z() - row.dot(plane)) / (scale * config.outlier_m);
@@ -41,6 +42,7 @@ void Ground::fit(const std::vector<Eigen::Vector3f>& points,
   half_ = 0.5 * size_ * config_.cell_m;
   accumulate(points, vehicles);
   leave_out_bonnets();
+  average_cells();
   cells_.assign(static_cast<std::size_t>(size_) * size_, std::nullopt);
   for (int row = 0; row < size_; ++row) {
     for (int column = 0; column < size_; ++column) {
@@ -130,9 +132,43 @@ const std::vector<Eigen::Vector3d>& Ground::support(int column, int row) {
   return support_;
 }
 
+void Ground::average_cells() {
+  const int n = config_.squares, edge = size_ * n;
+  means_.assign(static_cast<std::size_t>(size_) * size_, Eigen::Vector3d::Zero());
+  std::vector<int> counts(means_.size(), 0);
+  for (int row = 0; row < edge; ++row) {
+    for (int column = 0; column < edge; ++column) {
+      const Square& square = squares_[static_cast<std::size_t>(row) * edge + column];
+      if (square.count == 0) continue;
+      const std::size_t cell = static_cast<std::size_t>(row / n) * size_ + column / n;
+      means_[cell] += (square.sum / static_cast<float>(square.count)).cast<double>();
+      ++counts[cell];
+    }
+  }
+  for (std::size_t i = 0; i < means_.size(); ++i) means_[i] /= counts[i];  // 0 / 0 is NaN
+}
+
+/// Of the plane through the mean points of the cells about this one, dz/dx and dz/dy.
+Eigen::Vector2d Ground::slope_about(int column, int row) {
+  const int reach = static_cast<int>(std::round(config_.surroundings_m / config_.cell_m));
+  const Eigen::Vector2d middle = centre(column, row);
+  support_.clear();
+  for (int r = std::max(0, row - reach); r <= std::min(size_ - 1, row + reach); ++r) {
+    for (int c = std::max(0, column - reach); c <= std::min(size_ - 1, column + reach); ++c) {
+      Eigen::Vector3d mean = means_[static_cast<std::size_t>(r) * size_ + c];
+      if (!mean.allFinite()) continue;
+      mean.head<2>() -= middle;
+      support_.push_back(mean);
+    }
+  }
+  if (support_.empty()) return Eigen::Vector2d::Zero();
+  return fit_plane(support_, Eigen::Vector2d::Zero(), config_.slope_sd, config_).head<2>();
+}
+
 std::optional<objects::GroundPlane> Ground::fit_cell(int column, int row) {
   if (static_cast<int>(support(column, row).size()) < config_.least_squares) return std::nullopt;
-  const Eigen::Vector3d plane = fit_plane(support_, config_);
+  const Eigen::Vector2d slope = slope_about(column, row);
+  const Eigen::Vector3d plane = fit_plane(support(column, row), slope, config_.bend_sd, config_);
   if (!plane.allFinite()) return std::nullopt;
   if (plane.head<2>().norm() > std::tan(config_.most_slope_deg * M_PI / 180)) return std::nullopt;
   const Eigen::Vector2d middle = centre(column, row);

@@ -178,12 +178,35 @@ Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& po
   return result;
 }
 
+/// Low and high edge of a rectangle along an axis of one that is turned by a quarter to it.
+Eigen::Vector2d edges_along(const Rectangle& rectangle, const Footprint& other, int axis) {
+  const Interval& along = rectangle.axis[1 - axis];
+  const bool opposite =
+      (std::sin(rectangle.footprint.direction - other.direction) > 0) == (axis == 0);
+  return opposite ? Eigen::Vector2d(-along.high, -along.low)
+                  : Eigen::Vector2d(along.low, along.high);
+}
+
+/// With the odds that the heading is the other's: how far its edges lie from the ones stated.
+Rectangle widened_to(const Rectangle& across, Rectangle result, const VehicleConfig& config) {
+  const double odds = std::exp((result.cost - across.cost) / config.heading_cost);
+  const double probability = odds / (1 + odds);
+  for (int axis = 0; axis < 2; ++axis) {
+    Interval& stated = result.axis[axis];
+    const Eigen::Vector2d off =
+        edges_along(across, result.footprint, axis) - Eigen::Vector2d(stated.low, stated.high);
+    stated.covariance += of_centre_and_size(probability * off * off.transpose());
+  }
+  return result;
+}
+
 /// The side that is longer need not be the length where one face alone was seen.
 Rectangle likelier(const Footprint& footprint, const std::vector<BodyPoint>& points, double top,
                    const Sight& sight, const VehicleConfig& config) {
   const Rectangle straight = rectangle(footprint, points, top, sight, config);
   const Rectangle across = rectangle(turned(footprint), points, top, sight, config);
-  return across.cost < straight.cost ? across : straight;
+  return across.cost < straight.cost ? widened_to(straight, across, config)
+                                     : widened_to(across, straight, config);
 }
 
 /// Log-odds that the lower axis end … the end at +x is the front: the lower one (paper, III-A).

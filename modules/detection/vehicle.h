@@ -245,6 +245,7 @@ struct VehicleConfig {
   double width_sd_m = 0.12;
   TallConfig tall;
   double prior_windows = 20;
+  double heading_cost = 0.7;
   double thin_m = 0.05;
   double front_sd_m = 0.15;
   double most_front_log_odds = 3;
@@ -273,6 +274,9 @@ struct VehicleConfig {
     v.field("prior_windows", prior_windows, {1, 10000}, "",
             "that say as much of the class's size as one of them: all say the same, and many that "
             "hide a side would outvote the few that saw both");
+    v.field("heading_cost", heading_cost, {0.01, 100}, "",
+            "by which a heading must be costlier than the one across it for e times the odds that "
+            "it is wrong: below 0.5 a third are, from 1 to 2 one in twenty");
     v.field("thin_m", thin_m, {0.01, 0.5}, "m",
             "squares to which the footprint's points are thinned");
     v.field("front_sd_m", front_sd_m, {0.01, 2}, "m",

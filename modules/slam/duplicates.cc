@@ -85,7 +85,7 @@ int merge_duplicates(std::vector<Landmark>& landmarks, const DuplicateConfig& co
         std::swap(landmarks[a].id, landmarks[b].id);
       }
       if (!is_part_of(landmarks[b], landmarks[a], landmark_config))
-        absorb(landmarks[a], landmarks[b], landmark_config);
+        absorb(landmarks[a], landmarks[b]);
       landmarks.erase(landmarks.begin() + static_cast<std::ptrdiff_t>(b));
       ++merged;
     }

@@ -63,7 +63,7 @@ HistoryRecorder::Gathered HistoryRecorder::gathered(const Landmark& landmark,
   const Measurement& measurement = *candidate.measurement;
   const Model& reference =
       before != nullptr ? before->observation.measured.model : candidate.in_keyframe.model;
-  const int turn = turn_between(candidate.in_keyframe.model, reference, config);
+  const int turn = turn_between(candidate.in_keyframe.model, reference);
   Gathered result;
   result.observation = {0, candidate.in_keyframe, measurement.view_cell};
   if (is_cuboid(landmark.model)) {

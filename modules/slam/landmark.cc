@@ -16,10 +16,6 @@ using objects::Cuboid;
 constexpr std::size_t kRecentWindows = 10;  // 5 s: half a metre a second shows
 constexpr double kMostFront = 10;           // the same for front and back
 
-bool turns_by_quarters(const Cuboid& a, const Cuboid& b, const LandmarkConfig& config) {
-  return std::min(elongation(a), elongation(b)) < config.square_elongation;
-}
-
 void fuse_class(Landmark& landmark, const std::vector<double>& log_probability) {
   auto& fused = landmark.class_log;
   if (fused.empty()) fused.assign(log_probability.size(), 0);
@@ -75,23 +71,22 @@ objects::Shape shape_of(const Model& model) {
   return is_cuboid(model) ? objects::Shape::cuboid : objects::Shape::cylinder;
 }
 
-/// What a window adds to what is known of the ends. What it says of the length as a whole is shared
-/// out between them as its covariance does; a window that takes a side for the length adds nothing.
+/// What a window adds to what is known of the ends of what it takes for the length. What it says of
+/// that as a whole is shared out between them as its covariance does.
 void see_ends(Landmark& landmark, const Gaussian& measured, double length_sd) {
   const int axis = longer_axis(std::get<Cuboid>(measured.model));
-  if (axis != longer_axis(std::get<Cuboid>(landmark.model))) return;
   const Eigen::Vector2d sds = end_variances(measured.covariance, axis).cwiseSqrt();
-  landmark.ends.see(length_sd / sds.norm() * sds);
+  landmark.ends[axis].see(length_sd / sds.norm() * sds);
 }
 
-/// What another landmark knows of the ends, where both have their length along the same axis.
+/// What another landmark knows of the ends.
 void see_ends_of(Landmark& landmark, const Landmark& other, int turn) {
-  const int axis = longer_axis(std::get<Cuboid>(landmark.model));
-  const int others = longer_axis(std::get<Cuboid>(other.model));
-  const double along = turned(Eigen::Vector2d(Eigen::Vector2d::Unit(others)), turn)[axis];
-  for (const Eigen::Vector2d& sds : {other.ends.best, other.ends.next}) {
-    if (along > 0.5) landmark.ends.see(sds);
-    if (along < -0.5) landmark.ends.see(sds.reverse());
+  for (int others = 0; others < 2; ++others) {
+    const Eigen::Vector2d along = turned(Eigen::Vector2d(Eigen::Vector2d::Unit(others)), turn);
+    const int axis = std::abs(along.x()) > 0.5 ? 0 : 1;
+    for (const Eigen::Vector2d& sds : {other.ends[others].best, other.ends[others].next}) {
+      landmark.ends[axis].see(along[axis] > 0 ? sds : Eigen::Vector2d(sds.reverse()));
+    }
   }
 }
 
@@ -160,13 +155,9 @@ void join(Observation& a, const Observation& b) {
   a.windows = windows;
 }
 
-int turn_between(const Model& model, const Model& reference, const LandmarkConfig& config) {
+int turn_between(const Model& model, const Model& reference) {
   if (!is_cuboid(model)) return 0;
-  const auto& a = std::get<Cuboid>(model);
-  const auto& b = std::get<Cuboid>(reference);
-  if (turns_by_quarters(a, b, config)) return nearest_turn(a, b, true);
-  const int to_length = longer_axis(a) == longer_axis(b) ? 0 : 1;
-  return (to_length + nearest_turn(turned(a, to_length), b, false)) % 4;
+  return nearest_turn(std::get<Cuboid>(model), std::get<Cuboid>(reference));
 }
 
 Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
@@ -181,7 +172,7 @@ Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
 
 void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
              const LandmarkConfig& config) {
-  const int turn = turn_between(candidate.in_world, landmark.model, config);
+  const int turn = turn_between(candidate.in_world, landmark.model);
   const double front = std::isfinite(candidate.measurement->front_log_odds)
                            ? candidate.measurement->front_log_odds
                            : 0;
@@ -209,8 +200,8 @@ void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
   landmark.moving = still < config.still_windows;
 }
 
-void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config) {
-  const int turn = turn_between(other.model, landmark.model, config);
+void absorb(Landmark& landmark, const Landmark& other) {
+  const int turn = turn_between(other.model, landmark.model);
   for (Observation observation : other.observations) {
     observation.measured = turned_by(observation.measured, turn);
     remember(landmark, observation);
@@ -290,9 +281,13 @@ bool stands(const Landmark& landmark, const LandmarkConfig& config) {
   return landmark.log_odds >= config.least_log_odds;
 }
 
+const SeenEnds& seen_ends(const Landmark& landmark) {
+  return landmark.ends[longer_axis(std::get<Cuboid>(landmark.model))];
+}
+
 bool believed(const Landmark& landmark, const LandmarkConfig& config) {
-  const bool ends_known =
-      !is_cuboid(landmark.model) || landmark.ends.next.norm() <= config.most_length_sd_m;
+  const bool ends_known = !is_cuboid(landmark.model) ||
+                          seen_ends(landmark).next.norm() <= config.most_length_sd_m;
   return ends_known && stands(landmark, config);
 }
 
@@ -370,7 +365,8 @@ Eigen::Vector2d named_ends(const Landmark& landmark) {
   const int axis = longer_axis(std::get<Cuboid>(landmark.model));
   const Eigen::Vector2d named =
       turned(Eigen::Vector2d(Eigen::Vector2d::Unit(axis)), naming_turn(landmark));
-  return named.x() > 0 ? landmark.ends.next : landmark.ends.next.reverse();
+  const Eigen::Vector2d& next = seen_ends(landmark).next;
+  return named.x() > 0 ? next : next.reverse();
 }
 
 }  // namespace saker::slam

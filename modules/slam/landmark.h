@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -20,7 +21,6 @@ struct LandmarkConfig {
   double track_s = 3;
   int still_windows = 20;
   double still_m = 0.4;
-  double square_elongation = 2;
   double class_clamp = 0.05;
   double clutter_probability = 0.6;
   double least_log_odds = 6;
@@ -52,9 +52,6 @@ struct LandmarkConfig {
         "false window makes nothing move: 10 s, longer than most stops in traffic");
     v.field("still_m", still_m, {0, 5}, "m",
             "between windows: less is standing, the noise of a measured centre");
-    v.field("square_elongation", square_elongation, {1, 10}, "",
-            "of length to width, below which a heading is good to a quarter turn only: a whole "
-            "vehicle has 2.2 to 2.8, less is a part of one");
     v.field("class_clamp", class_clamp, {1e-4, 0.3}, "",
             "least probability of a class that one measurement may state, so that no single one "
             "decides");
@@ -131,8 +128,8 @@ struct Footprint {
   double sd = 0;  ///< of the centre, m: what was not seen may lie elsewhere
 };
 
-/// How well the low and the high end of a cuboid's longer side were seen, m, each in the windows
-/// that saw it best: one alone may have taken something else for an end.
+/// How well the low and the high end of a cuboid along an axis were seen, m, each in the windows
+/// that saw it best of those that took this axis for the length: one alone may have taken something else for an end.
 struct SeenEnds {
   Eigen::Vector2d best = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d next = best;  ///< in the window that saw it best but one
@@ -160,7 +157,7 @@ struct Landmark {
       false;      ///< found to move: followed, so that it leaves nothing behind, and not in the map
   int still = 0;  ///< windows for which what moved has stood
   Time first_stamp = 0, last_stamp = 0;
-  SeenEnds ends;  ///< of cuboids
+  std::array<SeenEnds, 2> ends;  ///< of cuboids, along x and y
   double nearest = std::numeric_limits<double>::infinity(),
          farthest = 0;  ///< distances at which it was measured, m
 };
@@ -168,7 +165,7 @@ struct Landmark {
 [[nodiscard]] Landmark new_landmark(int id, const Candidate& candidate, int keyframe,
                                     const LandmarkConfig& config);
 
-/// Takes a measurement in: turns its heading to the nearer of two (or four), fuses class and front,
+/// Takes a measurement in: turns its heading to the nearest of four, fuses class and front,
 /// remembers it.
 void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
              const LandmarkConfig& config);
@@ -183,17 +180,16 @@ void follow(Landmark& landmark, const Candidate& candidate, int keyframe,
 /// them.
 void join(Observation& a, const Observation& b);
 
-/// Quarters that turn a measured cuboid to the nearer of two headings of `reference`, length to
-/// length: of four where one of them is nearly square. 0 for cylinders.
-[[nodiscard]] int turn_between(const Model& model, const Model& reference,
-                               const LandmarkConfig& config);
+/// Quarters that turn a measured cuboid to the nearest heading of `reference`, whatever each takes
+/// for its length: where one face alone was seen that is a guess. 0 for cylinders.
+[[nodiscard]] int turn_between(const Model& model, const Model& reference);
 
 /// The logarithms of probabilities, none of them below `least` or above 1 − least, and back.
 [[nodiscard]] std::vector<double> clamped_log(const std::vector<double>& probability, double least);
 [[nodiscard]] std::vector<double> normalised(const std::vector<double>& log_probability);
 
 /// Takes over all that `other` knows: two candidates were one object.
-void absorb(Landmark& landmark, const Landmark& other, const LandmarkConfig& config);
+void absorb(Landmark& landmark, const Landmark& other);
 
 /// Keeps observations in the order of chains, keyframes and cells, one each: two of the same are
 /// joined.
@@ -211,6 +207,9 @@ void remember(Landmark& landmark, const Observation& observation);
 
 /// Seen often enough, over long enough, where it should be seen, no clutter, and standing still.
 [[nodiscard]] bool stands(const Landmark& landmark, const LandmarkConfig& config);
+
+/// Of the longer side of a cuboid's estimate.
+[[nodiscard]] const SeenEnds& seen_ends(const Landmark& landmark);
 
 /// The same, and its length known.
 [[nodiscard]] bool believed(const Landmark& landmark, const LandmarkConfig& config);

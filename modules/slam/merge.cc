@@ -251,7 +251,7 @@ void MultiRobotSlam::join(const Alignment& loop) {
     const auto a = std::ranges::find(landmarks_, older, &Landmark::id);
     const auto b = std::ranges::find(landmarks_, recent, &Landmark::id);
     b->model = objects::transformed(loop.T_a_b.pose, b->model);
-    absorb(*a, *b, landmark_config_);
+    absorb(*a, *b);
     landmarks_.erase(b);
   }
 }

@@ -154,12 +154,10 @@ Eigen::Vector2d turned(const Eigen::Vector2d& front, int quarters) {
   }
 }
 
-int nearest_turn(const Cuboid& cuboid, const Cuboid& reference, bool of_four) {
+int nearest_turn(const Cuboid& cuboid, const Cuboid& reference) {
   const double heading = core::yaw(cuboid.pose.linear().transpose() * reference.pose.linear());
-  const int step = of_four ? 1 : 2;
-  const double period = step * std::numbers::pi / 2;
-  const int turns = static_cast<int>(std::lround(heading / period));
-  return ((turns * step) % 4 + 4) % 4;
+  const int turns = static_cast<int>(std::lround(heading / (std::numbers::pi / 2)));
+  return (turns % 4 + 4) % 4;
 }
 
 double elongation(const Cuboid& cuboid) {

@@ -39,10 +39,8 @@ struct Gaussian {
 /// Evidence for the front along x and y (log-odds), as seen from the turned frame.
 [[nodiscard]] Eigen::Vector2d turned(const Eigen::Vector2d& front, int quarters);
 
-/// Quarters by which `cuboid` is turned to come nearest to the heading of `reference`: of two, or
-/// of four.
-[[nodiscard]] int nearest_turn(const objects::Cuboid& cuboid, const objects::Cuboid& reference,
-                               bool of_four);
+/// Quarters by which `cuboid` is turned to come nearest to the heading of `reference`.
+[[nodiscard]] int nearest_turn(const objects::Cuboid& cuboid, const objects::Cuboid& reference);
 
 /// Longer horizontal edge over the shorter one.
 [[nodiscard]] double elongation(const objects::Cuboid& cuboid);

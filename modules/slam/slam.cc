@@ -51,12 +51,13 @@ MeasurementNoiseConfig shared_noise(const SlamConfig& config) {
 /// any.
 void limit_to_best(Eigen::MatrixXd& covariance, const Landmark& landmark) {
   if (!is_cuboid(landmark.model) || covariance.size() == 0) return;
-  if (!landmark.ends.best.allFinite()) {
+  const Eigen::Vector2d& best = seen_ends(landmark).best;
+  if (!best.allFinite()) {
     covariance.resize(0, 0);
     return;
   }
   raise_end_variances(covariance, longer_axis(std::get<objects::Cuboid>(landmark.model)),
-                      landmark.ends.best.cwiseAbs2());
+                      best.cwiseAbs2());
 }
 
 /// By its name, as far as its cells agree, as wide as what windows share asks for, and an end that

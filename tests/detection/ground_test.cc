@@ -69,6 +69,33 @@ TEST(Ground, DoesNotLieOverAVehicle) {
   EXPECT_NEAR(height_under_bonnet(true), 0, 0.05);
 }
 
+/// Degrees by which the ground under a pickup is off, whose load bed was called ground, and before
+/// which none was seen; on a slope.
+double tilt_under_load_bed(double slope, const GroundConfig& config) {
+  core::Rng rng(5);
+  std::vector<Eigen::Vector3f> points = sloped(slope, 0, rng);
+  std::erase_if(points, [](const Eigen::Vector3f& p) { return p.x() > -1; });
+  for (int i = 0; i < 400; ++i) {
+    const double x = rng.uniform(0.5, 2);
+    points.push_back(Eigen::Vector3d(x, rng.uniform(-0.8, 0.8), slope * x + 0.8).cast<float>());
+  }
+  Ground ground(config);
+  ground.fit(points, {}, 30);
+  const objects::GroundPlane* plane = ground.at({0.2, 0, 0});
+  if (plane == nullptr) return NAN;
+  const Eigen::Vector3d up = Eigen::Vector3d(-slope, 0, 1).normalized();
+  return std::acos(std::min(1.0, plane->normal.dot(up))) * 180 / M_PI;
+}
+
+TEST(Ground, IsNotTiltedByALoadBedCalledGround) {
+  GroundConfig without;
+  without.bend_sd = 10;
+  for (const double slope : {0.0, 0.15}) {
+    EXPECT_GT(tilt_under_load_bed(slope, without), 12) << slope;
+    EXPECT_LT(tilt_under_load_bed(slope, {}), 8) << slope;
+  }
+}
+
 TEST(Ground, IsNotKnownFarFromWhereItWasSeen) {
   core::Rng rng(3);
   Ground ground({});

@@ -110,7 +110,7 @@ TEST(Duplicates, BoxAboutPartsTellsNothingOfAVehicleWhoseEndsWereSeen) {
   whole.seen = whole.expected = 10;
   whole.last_stamp += from_seconds(5);
   whole.log_odds = 20;
-  whole.ends.next.setConstant(0.1);
+  whole.ends[0].next.setConstant(0.1);
   EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
   ASSERT_EQ(landmarks.size(), 1U);
   EXPECT_EQ(landmarks[0].id, 0);
@@ -169,10 +169,10 @@ TEST(Duplicates, EndsThatEitherSawAreKnownHoweverEachNamesThem) {
   Cuboid named_across = car(0, 0, std::numbers::pi / 2);
   std::swap(named_across.size.x(), named_across.size.y());
   Landmark other = landmark_at(1, named_across, kVehicle, 1);
-  landmark.ends.best = landmark.ends.next = {1, 0.1};
-  other.ends.best = other.ends.next = {1, 0.1};  // its y axis points to the other's −x
-  absorb(landmark, other, {});
-  EXPECT_EQ(landmark.ends.best, Eigen::Vector2d(0.1, 0.1));
+  landmark.ends[0].best = landmark.ends[0].next = {1, 0.1};
+  other.ends[1].best = other.ends[1].next = {1, 0.1};  // its y axis points to the other's −x
+  absorb(landmark, other);
+  EXPECT_EQ(landmark.ends[0].best, Eigen::Vector2d(0.1, 0.1));
 }
 
 TEST(Duplicates, NeighboursAndOtherShapesStay) {
@@ -190,7 +190,7 @@ TEST(Duplicates, APoleInsideATrunkIsOneObjectAndItsClassIsFused) {
                                      landmark_at(1, bush, kTrunk)};
   for (int i = 0; i < 3; ++i) {
     Landmark again = landmark_at(2, trunk(5, 0), kPole);
-    absorb(landmarks[0], again, {});
+    absorb(landmarks[0], again);
   }
   EXPECT_EQ(merge_duplicates(landmarks, {}, {}), 1);
   ASSERT_EQ(landmarks.size(), 1U);

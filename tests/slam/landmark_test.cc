@@ -75,7 +75,7 @@ TEST(Landmark, ClassIsFusedByBayesRule) {
   EXPECT_NEAR(p[0] + p[1] + p[2] + p[3] + p[4], 1, 1e-12);
 }
 
-TEST(Landmark, MeasuredHeadingIsTurnedToTheNearerOfTwo) {
+TEST(Landmark, MeasuredHeadingIsTurnedToTheNearest) {
   Feed feed;
   feed(car(5, 0, 0.1), kVehicle);
   const Landmark& landmark = feed(car(5, 0, 0.1 + kPi), kVehicle);
@@ -155,6 +155,18 @@ TEST(Landmark, WindowFromTheOtherSideSeesTheSameEndWhicheverWayItNamesThem) {
   feed.see_ends(1, 0.1);
   feed(car(5, 0, kPi), kVehicle);
   EXPECT_FALSE(believed(feed(car(5, 0, kPi), kVehicle), kConfig));
+}
+
+TEST(Landmark, WindowThatTookItsTailForASideMixesNoEnds) {
+  Feed feed;
+  feed.see_ends(0.1, 1);
+  feed(car(5, 0, 0), kVehicle);
+  Landmark& landmark = feed(car(4, 0, kPi / 2), kVehicle);
+  landmark.model = landmark.observations.back().measured.model;  // as if it were the likeliest
+  for (const double slip : {0.02, -0.02, 0.03, -0.03}) feed(car(5, 0, slip), kVehicle);
+  landmark.model = landmark.observations.front().measured.model;
+  EXPECT_TRUE(seen_ends(landmark).next.isApprox(Eigen::Vector2d(0.1, 1), 1e-9));
+  EXPECT_FALSE(believed(landmark, kConfig));
 }
 
 TEST(Landmark, EarlyEvidenceOfAClassIsNotForgotten) {

@@ -30,17 +30,9 @@ TEST(ModelAlgebra, DifferenceUndoesStep) {
   EXPECT_LT((difference(moved(trunk(), step), trunk()) - step).norm(), 1e-12);
 }
 
-TEST(ModelAlgebra, HeadingIsTurnedToTheNearerOfTwo) {
-  constexpr double kPi = std::numbers::pi;
-  EXPECT_EQ(nearest_turn(car(0.2), car(0.1), false), 0);
-  EXPECT_EQ(nearest_turn(car(0.1 + kPi), car(0), false), 2);
-  EXPECT_EQ(nearest_turn(car(-0.9 * kPi), car(0.9 * kPi), false), 0);
-  EXPECT_EQ(nearest_turn(car(0.3 * kPi), car(0), false), 0);  // a quarter turn is not offered
-}
-
 TEST(ModelAlgebra, QuarterTurnBringsTheHeadingWithinAnEighth) {
   for (double yaw = -3.1; yaw < 3.1; yaw += 0.2) {
-    const Cuboid near = turned(car(yaw), nearest_turn(car(yaw), car(0.4), true));
+    const Cuboid near = turned(car(yaw), nearest_turn(car(yaw), car(0.4)));
     const double left = core::yaw(near.pose.linear().transpose() * car(0.4).pose.linear());
     EXPECT_LE(std::abs(left), std::numbers::pi / 4 + 1e-9) << yaw;
   }

@@ -198,19 +198,19 @@ TEST(ViewCell, AFittedLengthDoesNotHideThatBothEndsWereSeen) {
   m.covariance = 0.25 * Matrix9d::Identity();  // what a cell's windows err by
   m.length_sd = 0.1;
   const Candidate candidate{&m, {m.model, m.covariance}, m.model, 8, 0.9};
-  EXPECT_NEAR(new_landmark(0, candidate, 0, kConfig).ends.best.norm(), 0.1, 1e-12);
+  EXPECT_NEAR(new_landmark(0, candidate, 0, kConfig).ends[0].best.norm(), 0.1, 1e-12);
 }
 
 TEST(ViewCell, MergedLandmarksHaveTheEndsThatEitherSaw) {
   Landmark a = measured({{0, 2, 4.4}});
-  EXPECT_FALSE(std::isfinite(a.ends.next.norm()));
-  absorb(a, measured({{1, 2, 4.4}}), kConfig);
-  EXPECT_NEAR(a.ends.next.norm(), a.ends.best.norm(), 1e-12);
+  EXPECT_FALSE(std::isfinite(a.ends[0].next.norm()));
+  absorb(a, measured({{1, 2, 4.4}}));
+  EXPECT_NEAR(a.ends[0].next.norm(), a.ends[0].best.norm(), 1e-12);
 }
 
 TEST(ViewCell, MergedLandmarksShareTheirCells) {
   Landmark a = measured({{0, 2, 4.4}, {1, 2, 4.4}});
-  absorb(a, measured({{1, 2, 4.6}, {1, 2, 4.6}, {2, 3, 4.4}}), kConfig);
+  absorb(a, measured({{1, 2, 4.6}, {1, 2, 4.6}, {2, 3, 4.4}}));
   ASSERT_EQ(a.observations.size(), 3U);
   EXPECT_EQ(a.observations[1].windows, 3);
   EXPECT_NEAR(std::get<Cuboid>(a.observations[1].measured.model).size.x(), 13.6 / 3, 1e-6);
