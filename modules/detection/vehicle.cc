@@ -178,11 +178,10 @@ Rectangle rectangle(const Footprint& footprint, const std::vector<BodyPoint>& po
   return result;
 }
 
-/// Low and high edge of a rectangle along an axis of one that is turned by a quarter to it.
-Eigen::Vector2d edges_along(const Rectangle& rectangle, const Footprint& other, int axis) {
-  const Interval& along = rectangle.axis[1 - axis];
-  const bool opposite =
-      (std::sin(rectangle.footprint.direction - other.direction) > 0) == (axis == 0);
+/// Low and high edge of a rectangle along an axis of one that it lies across.
+Eigen::Vector2d edges_along(const Rectangle& across, const Footprint& other, int axis) {
+  const Interval& along = across.axis[1 - axis];
+  const bool opposite = (std::sin(across.footprint.direction - other.direction) > 0) == (axis == 0);
   return opposite ? Eigen::Vector2d(-along.high, -along.low)
                   : Eigen::Vector2d(along.low, along.high);
 }

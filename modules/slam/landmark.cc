@@ -286,8 +286,8 @@ const SeenEnds& seen_ends(const Landmark& landmark) {
 }
 
 bool believed(const Landmark& landmark, const LandmarkConfig& config) {
-  const bool ends_known = !is_cuboid(landmark.model) ||
-                          seen_ends(landmark).next.norm() <= config.most_length_sd_m;
+  const bool ends_known =
+      !is_cuboid(landmark.model) || seen_ends(landmark).next.norm() <= config.most_length_sd_m;
   return ends_known && stands(landmark, config);
 }
 

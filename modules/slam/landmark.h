@@ -129,7 +129,8 @@ struct Footprint {
 };
 
 /// How well the low and the high end of a cuboid along an axis were seen, m, each in the windows
-/// that saw it best of those that took this axis for the length: one alone may have taken something else for an end.
+/// that saw it best of those that took this axis for the length: one alone may have taken something
+/// else for an end.
 struct SeenEnds {
   Eigen::Vector2d best = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d next = best;  ///< in the window that saw it best but one

@@ -180,9 +180,11 @@ Eigen::Vector2d faces_off(const VehicleFit& fit, double low, double high) {
   const int axis = std::abs(R(0, 0)) > std::abs(R(0, 1)) ? 0 : 1;
   const double sign = R(0, axis) > 0 ? 1 : -1;
   const double centre = fit.cuboid.pose.translation().x(), half = 0.5 * fit.cuboid.size[axis];
-  const double mean = fit.covariance(3 + axis, 3 + axis) + 0.25 * fit.covariance(6 + axis, 6 + axis);
+  const double mean =
+      fit.covariance(3 + axis, 3 + axis) + 0.25 * fit.covariance(6 + axis, 6 + axis);
   const double both = sign * fit.covariance(3 + axis, 6 + axis);
-  return {(low - centre + half) / std::sqrt(mean - both), (centre + half - high) / std::sqrt(mean + both)};
+  return {(low - centre + half) / std::sqrt(mean - both),
+          (centre + half - high) / std::sqrt(mean + both)};
 }
 
 TEST(Vehicle, WhoseHeadingIsAGuessStatesNoFaceBetterThanEitherHeadingTells) {
