@@ -83,7 +83,7 @@ struct PamsConfig {
     config.faces.hidden_end_m = 0.08;  // lengths with one were off by 0.06 m, widths by 0.04 m
     config.faces.hidden_side_m = 0.08;
     config.enough_entropy = -11;
-    config.most_size_sd_m = 0.055;  // errors go with what the map states
+    config.most_size_sd_m = 0.06;  // errors go with what the map states
     config.common_counts = true;
     config.map_counts = true;
     config.price_per_s = 0.3;
