@@ -149,26 +149,26 @@ void Ground::average_cells() {
 }
 
 /// Of the plane through the mean points of the cells about this one, dz/dx and dz/dy.
-Eigen::Vector2d Ground::slope_about(int column, int row) {
+Eigen::Vector2d Ground::slope_about(int column, int row) const {
   const int reach = static_cast<int>(std::round(config_.surroundings_m / config_.cell_m));
   const Eigen::Vector2d middle = centre(column, row);
-  support_.clear();
+  std::vector<Eigen::Vector3d> about;
   for (int r = std::max(0, row - reach); r <= std::min(size_ - 1, row + reach); ++r) {
     for (int c = std::max(0, column - reach); c <= std::min(size_ - 1, column + reach); ++c) {
       Eigen::Vector3d mean = means_[static_cast<std::size_t>(r) * size_ + c];
       if (!mean.allFinite()) continue;
       mean.head<2>() -= middle;
-      support_.push_back(mean);
+      about.push_back(mean);
     }
   }
-  if (support_.empty()) return Eigen::Vector2d::Zero();
-  return fit_plane(support_, Eigen::Vector2d::Zero(), config_.slope_sd, config_).head<2>();
+  if (about.empty()) return Eigen::Vector2d::Zero();
+  return fit_plane(about, Eigen::Vector2d::Zero(), config_.slope_sd, config_).head<2>();
 }
 
 std::optional<objects::GroundPlane> Ground::fit_cell(int column, int row) {
   if (static_cast<int>(support(column, row).size()) < config_.least_squares) return std::nullopt;
   const Eigen::Vector2d slope = slope_about(column, row);
-  const Eigen::Vector3d plane = fit_plane(support(column, row), slope, config_.bend_sd, config_);
+  const Eigen::Vector3d plane = fit_plane(support_, slope, config_.bend_sd, config_);
   if (!plane.allFinite()) return std::nullopt;
   if (plane.head<2>().norm() > std::tan(config_.most_slope_deg * M_PI / 180)) return std::nullopt;
   const Eigen::Vector2d middle = centre(column, row);

@@ -19,7 +19,7 @@ class MadeFlight {
   [[nodiscard]] std::unique_ptr<lidar::ScanSource> open() const;
   [[nodiscard]] std::filesystem::path truth() const { return folder_ / "truth.json"; }
 
-  static constexpr int kScans = 60;
+  static constexpr int kScans = 80;
 
  private:
   std::filesystem::path folder_;

@@ -30,6 +30,13 @@ TEST(ModelAlgebra, DifferenceUndoesStep) {
   EXPECT_LT((difference(moved(trunk(), step), trunk()) - step).norm(), 1e-12);
 }
 
+TEST(ModelAlgebra, HeadingIsTurnedToTheNearest) {
+  constexpr double kPi = std::numbers::pi;
+  EXPECT_EQ(nearest_turn(car(0.2), car(0.1)), 0);
+  EXPECT_EQ(nearest_turn(car(0.1 + kPi), car(0)), 2);
+  EXPECT_EQ(nearest_turn(car(-0.9 * kPi), car(0.9 * kPi)), 0);
+}
+
 TEST(ModelAlgebra, QuarterTurnBringsTheHeadingWithinAnEighth) {
   for (double yaw = -3.1; yaw < 3.1; yaw += 0.2) {
     const Cuboid near = turned(car(yaw), nearest_turn(car(yaw), car(0.4)));
