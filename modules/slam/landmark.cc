@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "objects/stated_length.h"
 
@@ -90,19 +92,25 @@ void see_ends_of(Landmark& landmark, const Landmark& other, int turn) {
   }
 }
 
-/// The axis of a cuboid's length by the windows that showed it from end to end; none did: −1.
+/// The axis of a cuboid's length by the views whose width is no guess: windows from one cell count
+/// once, for they make the same mistake together. A draw: −1.
 int length_axis(const Landmark& landmark, const LengthAxisConfig& config) {
   if (!is_cuboid(landmark.model)) return -1;
-  std::array<int, 2> windows{};
+  std::array<int, 2> views{};
+  std::set<std::pair<int, int>> counted;  // cell, axis
   for (const Observation& o : landmark.observations) {
     const auto& cuboid = std::get<Cuboid>(o.measured.model);
     const int axis = longer_axis(cuboid);
-    const bool whole = std::sqrt(o.measured.covariance(6 + axis, 6 + axis)) <= config.whole_sd_m;
-    if (whole && elongation(cuboid) >= config.elongation)
-      windows[static_cast<std::size_t>(axis)] += o.windows;
+    const double width_sd = std::sqrt(o.measured.covariance(7 - axis, 7 - axis));
+    if (elongation(cuboid) < config.elongation || width_sd > config.most_width_sd_m) continue;
+    if (o.cell < 0) {
+      views[axis] += o.windows;
+    } else if (counted.emplace(o.cell, axis).second) {
+      ++views[axis];
+    }
   }
-  if (windows[0] == windows[1]) return -1;
-  return windows[0] > windows[1] ? 0 : 1;
+  if (views[0] == views[1]) return -1;
+  return views[0] > views[1] ? 0 : 1;
 }
 
 /// Whether a window took a side of the vehicle for its length: where its box is nearly square, by

@@ -83,7 +83,7 @@ struct LandmarkConfig {
 /// Which axis of a cuboid is its length.
 struct LengthAxisConfig {
   double elongation = 1.5;
-  double whole_sd_m = 0.3;
+  double most_width_sd_m = 0.6;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -91,8 +91,9 @@ struct LengthAxisConfig {
         "elongation", elongation, {1, 10}, "",
         "of length to width, from which on the longer side is the length: parts of vehicles are "
         "squarer");
-    v.field("whole_sd_m", whole_sd_m, {0.01, 10}, "m",
-            "standard deviation of a length up to which its window saw both ends");
+    v.field("most_width_sd_m", most_width_sd_m, {0.01, 10}, "m",
+            "standard deviation of a width up to which its window tells which side is the length: "
+            "where the heading is a guess, detection states more");
   }
 };
 

@@ -146,10 +146,26 @@ TEST(ViewCell, AWindowThatTookASideForTheLengthWeighsNothingBesideWholeOnes) {
   EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.5, 0.5, 1}));
 }
 
-TEST(ViewCell, WithoutAWholeWindowNoneIsLeftOut) {
-  Landmark landmark = measured({piece(0), piece(1)});
-  landmark.observations[1].measured.covariance(7, 7) = 1;
-  EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.5, 0.5}));
+TEST(ViewCell, WhereNoWindowKnowsTheWidthNoneIsLeftOut) {
+  Landmark landmark = measured({{0, 2, 4.4}, {1, 2, 4.4}, piece(2)});
+  for (Observation& o : landmark.observations) o.measured.covariance(7, 7) = 1;
+  EXPECT_EQ(observation_weights(landmark, {}), (std::vector<double>{0.5, 0.5, 1}));
+}
+
+/// Its longer side lies across: two neighbours' tails taken for one vehicle.
+void turn_across(Observation& observation) {
+  std::swap(std::get<Cuboid>(observation.measured.model).size.x(),
+            std::get<Cuboid>(observation.measured.model).size.y());
+}
+
+TEST(ViewCell, ManyWindowsOfOneViewDoNotOutvoteTwoViews) {
+  Landmark landmark = measured({{0, 3, 4.4}, {1, 3, 4.4}, {2, 3, 4.4}, {0, 7, 4.4}, {1, 9, 4.4}});
+  for (Observation& o : landmark.observations) {
+    if (o.cell == 3) turn_across(o);
+  }
+  std::vector<double> weights;
+  for (const Observation& o : landmark.observations) weights.push_back(o.cell == 3 ? 0 : 1);
+  EXPECT_EQ(observation_weights(landmark, {}), weights);
 }
 
 TEST(ViewCell, AShortWindowMayHideAnEndUnlessTheModelCorrectedIt) {
