@@ -12,7 +12,7 @@ struct RandomEffectsConfig {
   double prior_draws = 10;
   double bias_prior_draws = 1;
   double bias_most_deviations = 2;
-  double most_sd = 2.5;
+  double most_sd = 5;
   double least_sd_m = 0.005;
   int iterations = 1000;
   double tolerance = 2e-4;
