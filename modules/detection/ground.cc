@@ -166,9 +166,10 @@ Eigen::Vector2d Ground::slope_about(int column, int row) const {
 }
 
 std::optional<objects::GroundPlane> Ground::fit_cell(int column, int row) {
-  if (static_cast<int>(support(column, row).size()) < config_.least_squares) return std::nullopt;
+  const std::vector<Eigen::Vector3d>& seen = support(column, row);
+  if (static_cast<int>(seen.size()) < config_.least_squares) return std::nullopt;
   const Eigen::Vector2d slope = slope_about(column, row);
-  const Eigen::Vector3d plane = fit_plane(support_, slope, config_.bend_sd, config_);
+  const Eigen::Vector3d plane = fit_plane(seen, slope, config_.bend_sd, config_);
   if (!plane.allFinite()) return std::nullopt;
   if (plane.head<2>().norm() > std::tan(config_.most_slope_deg * M_PI / 180)) return std::nullopt;
   const Eigen::Vector2d middle = centre(column, row);

@@ -55,8 +55,8 @@ struct GroundConfig {
             "prior of the surroundings' slope against up: of streets in hills");
     v.field("bend_sd", bend_sd, {0.001, 2}, "",
             "of a cell's slope against its surroundings': holds one that is seen in a line, or of "
-            "which a load bed is a part; without it planes of 1 in 70 vehicles were off by 6 "
-            "degrees and more, a quarter of all false ends");
+            "which a load bed is a part; without it planes were off by 6 degrees and more in 1 "
+            "of 70 windows of vehicles, a quarter of all false ends");
     v.field("most_slope_deg", most_slope_deg, {1, 80}, "deg", "a steeper plane is refused");
     v.field("most_step_m", most_step_m, {0.05, 10}, "m",
             "a plane that is farther off the median of its neighbours is refused");

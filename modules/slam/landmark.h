@@ -198,7 +198,7 @@ void absorb(Landmark& landmark, const Landmark& other);
 void remember(Landmark& landmark, const Observation& observation);
 
 /// What each weighs: windows of a view cell share their error and weigh as one together, others one
-/// each; those that took a vehicle's side for its length nothing, once others showed both its ends.
+/// each; those that took a vehicle's side for its length nothing, once more views tell otherwise.
 [[nodiscard]] std::vector<double> observation_weights(const Landmark& landmark,
                                                       const LengthAxisConfig& config);
 
