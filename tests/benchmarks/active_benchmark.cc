@@ -1,8 +1,9 @@
 /// One decision of PAMS, and its parts: the search over 30 samples at a horizon of 3 (all 24,360
 /// paths, and a beam), with the current target alone and with its neighbours, and the decision as a
-/// whole in a block of 40 m at 0.25 m. Aim: 100 ms on one thread.
+/// whole in a block of 40 m at 0.25 m. Aim: 100 ms on one thread. A tour of 1,000 stops: 1 s.
 #include "../active/made_flight.h"
 #include "../active/made_model.h"
+#include "../active/tsplib.h"
 #include "active/pams.h"
 #include "benchmark/benchmark.h"
 #include "core/rng.h"
@@ -85,6 +86,17 @@ void decision(benchmark::State& state) {
   state.counters["lattice"] = static_cast<double>(candidates);
 }
 BENCHMARK(decision)->ArgName("saker")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+void tour(benchmark::State& state) {
+  const tsplib::Instance instance = tsplib::pr1002();
+  const TourProblem problem = tsplib::problem(instance.points);
+  double length = 0;
+  for (auto _ : state) {
+    length = solve_tour(problem, {}, core::Budget::iterations(1'000'000)).length;
+  }
+  state.counters["of_optimum"] = length / instance.optimum;
+}
+BENCHMARK(tour)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace saker::active
