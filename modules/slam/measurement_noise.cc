@@ -53,6 +53,12 @@ Eigen::VectorXd common_variances(const Model& model, const MeasurementNoiseConfi
   return sd.cwiseAbs2();
 }
 
+Eigen::MatrixXd with_class_width(const Eigen::MatrixXd& covariance, double sd) {
+  constexpr Eigen::Index kWidth = 7;
+  const Eigen::VectorXd with_all = covariance.col(kWidth);
+  return covariance - with_all * with_all.transpose() / (with_all[kWidth] + sd * sd);
+}
+
 Eigen::MatrixXd widened(const Model& model, const Eigen::MatrixXd& covariance,
                         const MeasurementNoiseConfig& config) {
   Eigen::VectorXd windows = Eigen::VectorXd::Ones(covariance.rows());

@@ -61,7 +61,8 @@ void limit_to_best(Eigen::MatrixXd& covariance, const Landmark& landmark) {
 }
 
 /// By its name, as far as its cells agree, as wide as what windows share asks for, and an end that
-/// none looked at no better known than what they share of it; empty where nothing was measured.
+/// none looked at no better known than what they share of it; its width no worse than its class's,
+/// where cells count. Empty where nothing was measured.
 Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
                         const SlamConfig& config) {
   if (given.covariance.size() == 0) return {};
@@ -73,6 +74,9 @@ Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
   if (is_cuboid(landmark.model) && ends.allFinite()) {
     const Eigen::Array2d shares = (config.noise.shared_end_per_m * ends.array()).min(1);
     raise_end_variances(named, 0, (shares * ends.array()).square());
+  }
+  if (is_cuboid(landmark.model) && config.measurement_noise == NoiseSource::fitted) {
+    return with_class_width(named, config.noise.fitted_class_width_m);
   }
   return named;
 }

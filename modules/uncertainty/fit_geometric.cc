@@ -224,11 +224,25 @@ void fill(Parts& parts, const RandomEffects& effects, int least_draws) {
   }
 }
 
+/// Errors of vehicles are alike by their nearer end: seen from behind, x points away from it.
+std::vector<Eigen::VectorXd> alike_by_nearer_end(const Intervals& intervals,
+                                                 Eigen::Index dimension) {
+  std::vector<Eigen::VectorXd> alike(static_cast<std::size_t>(intervals.size()),
+                                     Eigen::VectorXd::Ones(dimension));
+  if (intervals.sectors < 2) return alike;
+  for (int i = 0; i < intervals.size(); ++i) {
+    const double angle = intervals.sector_centre(i % intervals.sectors);
+    if (angle > std::numbers::pi / 2) alike[static_cast<std::size_t>(i)][0] = -1;
+  }
+  return alike;
+}
+
 Parts fit_parts(std::span<const SeenDraw> seen, const Intervals& intervals,
                 const std::vector<Covariate>& covariates, const FitConfig& config) {
   std::vector<Draw> draws = renumbered(seen);
   const Eigen::VectorXd parity = mirror(draws.front().error.size(), intervals.sectors);
-  RandomEffects effects = random_effects(draws, intervals.size(), parity, config.errors);
+  const auto alike = alike_by_nearer_end(intervals, parity.size());
+  RandomEffects effects = random_effects(draws, alike, parity, config.errors);
   Parts parts;
   parts.intervals = intervals;
   parts.fitted.resize(static_cast<std::size_t>(intervals.size()));
@@ -241,7 +255,7 @@ Parts fit_parts(std::span<const SeenDraw> seen, const Intervals& intervals,
     for (std::size_t i = 0; i < draws.size(); ++i) {
       draws[i].error -= by.z[i] * bias.cwiseProduct(reach_of_slope(parity, seen[i].view.angle));
     }
-    effects = random_effects(draws, intervals.size(), parity, config.errors);
+    effects = random_effects(draws, alike, parity, config.errors);
     parts.slopes.push_back({covariates[k], by.spread, bias,
                             log_scale_slope(draws, effects, by.z, config.errors.most_sd)});
     for (std::size_t i = 0; i < parts.fitted.size(); ++i) {

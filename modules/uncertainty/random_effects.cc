@@ -22,16 +22,20 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Estimation {
  public:
-  Estimation(std::span<const Draw> draws, int intervals, const Eigen::VectorXd& parity,
-             const RandomEffectsConfig& config)
-      : draws_(draws), parity_(parity), config_(config), weights_(draws.size(), 1.0) {
+  Estimation(std::span<const Draw> draws, std::span<const Eigen::VectorXd> alike,
+             const Eigen::VectorXd& parity, const RandomEffectsConfig& config)
+      : draws_(draws),
+        alike_(alike.begin(), alike.end()),
+        parity_(parity),
+        config_(config),
+        weights_(draws.size(), 1.0) {
     int objects = 0;
     for (const Draw& draw : draws) objects = std::max(objects, draw.object + 1);
     for (const Draw& draw : draws) errors_.push_back(draw.error);
     additions_.assign(at(objects), {zero_vector(), zero_matrix()});
-    counts_.assign(at(intervals), 0);
+    counts_.assign(alike.size(), 0);
     for (const Draw& draw : draws) ++counts_[at(draw.interval)];
-    start(at(intervals));
+    start(alike.size());
   }
 
   /// \return how much the common covariance changed, relative to itself
@@ -76,6 +80,14 @@ class Estimation {
   template <class T>
   [[nodiscard]] T folded(const Draw& draw, const T& own) const {
     return draw.mirrored ? mirrored(own) : own;
+  }
+
+  /// From an interval to what all are alike in, and back.
+  [[nodiscard]] Vector alike(std::size_t interval, const Vector& v) const {
+    return v.cwiseProduct(alike_[interval]);
+  }
+  [[nodiscard]] Matrix alike(std::size_t interval, const Matrix& m) const {
+    return alike_[interval].asDiagonal() * m * alike_[interval].asDiagonal();
   }
 
   [[nodiscard]] std::vector<Matrix> inverse_covariances() const {
@@ -189,18 +201,20 @@ class Estimation {
     std::vector<Vector> all;
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
-      all.emplace_back(errors_[i] - folded(draw, additions_[at(draw.object)].mean));
-      errors[at(draw.interval)].push_back(all.back());
+      const Vector own = errors_[i] - folded(draw, additions_[at(draw.object)].mean);
+      all.push_back(alike(at(draw.interval), own));
+      errors[at(draw.interval)].push_back(own);
     }
     class_bias_ = located(all, class_bias_);
     for (std::size_t i = 0; i < errors.size(); ++i) {
+      const Vector of_class = alike(i, class_bias_);
       if (errors[i].empty()) {
-        location_[i] = bias_[i] = class_bias_;
+        location_[i] = bias_[i] = of_class;
         continue;
       }
       location_[i] = located(errors[i], location_[i]);
       const double known = counts_[i] + config_.bias_prior_draws;
-      bias_[i] = (counts_[i] * location_[i] + config_.bias_prior_draws * class_bias_) / known;
+      bias_[i] = (counts_[i] * location_[i] + config_.bias_prior_draws * of_class) / known;
     }
   }
 
@@ -217,15 +231,16 @@ class Estimation {
                                left_open(draw, inverse[at(draw.interval)]);
       const Matrix square = weights_[i] * (rest * rest.transpose() + uncertain);
       sums[at(draw.interval)] += square;
-      total += square;
+      total += alike(at(draw.interval), square);
     }
     const auto used = std::count_if(counts_.begin(), counts_.end(), [](int n) { return n > 0; });
     const double freedom = static_cast<double>(draws_.size()) - static_cast<double>(used);
     const Matrix mean = total / std::max(freedom, 1.0);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const double known = std::max(counts_[i] - 1, 0) + config_.prior_draws;
-      covariance_[i] = mean + least();
-      if (known > 0) covariance_[i] = (sums[i] + config_.prior_draws * mean) / known + least();
+      const Matrix of_class = alike(i, mean);
+      covariance_[i] = of_class + least();
+      if (known > 0) covariance_[i] = (sums[i] + config_.prior_draws * of_class) / known + least();
     }
   }
 
@@ -239,6 +254,7 @@ class Estimation {
   }
 
   std::span<const Draw> draws_;
+  std::vector<Vector> alike_;  // one an interval
   Vector parity_;
   RandomEffectsConfig config_;
   std::vector<double> weights_;          // one a draw
@@ -254,9 +270,9 @@ class Estimation {
 
 }  // namespace
 
-RandomEffects random_effects(std::span<const Draw> draws, int intervals,
+RandomEffects random_effects(std::span<const Draw> draws, std::span<const Eigen::VectorXd> alike,
                              const Eigen::VectorXd& parity, const RandomEffectsConfig& config) {
-  Estimation estimation(draws, intervals, parity, config);
+  Estimation estimation(draws, alike, parity, config);
   for (int i = 0; i < config.iterations; ++i) {
     if (estimation.iterate() < config.tolerance) break;
   }

@@ -59,8 +59,11 @@ struct RandomEffects {
 /// The covariance of an interval contains what its bias is uncertain by. What a draw leaves open is
 /// missing data (Little and Rubin, Statistical Analysis with Missing Data, 2002): filled in by the
 /// rest of its error, with the variance that this has.
+/// \param alike   one an interval: signs of the error's entries under which those of all intervals
+///                are alike, as the class's mean takes them
 /// \param parity  of the error's entries under the mirror between left and right
-[[nodiscard]] RandomEffects random_effects(std::span<const Draw> draws, int intervals,
+[[nodiscard]] RandomEffects random_effects(std::span<const Draw> draws,
+                                           std::span<const Eigen::VectorXd> alike,
                                            const Eigen::VectorXd& parity,
                                            const RandomEffectsConfig& config);
 

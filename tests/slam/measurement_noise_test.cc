@@ -93,6 +93,16 @@ TEST(MeasurementNoise, AMapIsWidenedByTheWindowsThatCountForOneAndKeepsItsCorrel
 
 /// What the flights showed: every trunk seems to lean away from the robot, every vehicle is lower
 /// from afar. Neither may bend the path more than odometry does.
+TEST(MeasurementNoise, AWidthThatNoViewMeasuredIsKnownByItsClass) {
+  const double sd = 0.12;
+  Eigen::MatrixXd covariance = 1e-3 * Eigen::MatrixXd::Identity(9, 9);
+  covariance(7, 7) = 0.3 * 0.3;
+  covariance(4, 7) = covariance(7, 4) = 0.005;  // the side that was seen holds
+  Eigen::MatrixXd information = covariance.inverse();
+  information(7, 7) += 1 / (sd * sd);
+  EXPECT_TRUE(with_class_width(covariance, sd).isApprox(information.inverse(), 1e-9));
+}
+
 TEST(MeasurementNoise, ErrorsThatDependOnTheViewDoNotTurnTheRobot) {
   SlamConfig config = honest_config();
   config.noise = {};

@@ -11,6 +11,11 @@ namespace {
 
 const Eigen::Vector2d kParity(1, -1);
 
+/// Intervals that are alike as they are.
+std::vector<Eigen::VectorXd> alike(std::size_t intervals) {
+  return {intervals, Eigen::VectorXd::Ones(2)};
+}
+
 /// Two intervals; errors of known bias and spread, an addition of the object in its own frame.
 std::vector<Draw> made(int objects, std::uint64_t seed) {
   core::Rng rng(seed);
@@ -30,7 +35,7 @@ std::vector<Draw> made(int objects, std::uint64_t seed) {
 }
 
 TEST(RandomEffectsTest, TellsWhatIsCommonFromWhatIsNot) {
-  const RandomEffects effects = random_effects(made(2000, 1), 2, kParity, {});
+  const RandomEffects effects = random_effects(made(2000, 1), alike(2), kParity, {});
   EXPECT_NEAR(std::sqrt(effects.common(0, 0)), 0.3, 0.02);
   EXPECT_NEAR(std::sqrt(effects.common(1, 1)), 0.2, 0.02);
   EXPECT_NEAR(std::sqrt(effects.covariance[0](0, 0)), 0.1, 0.02);
@@ -38,7 +43,7 @@ TEST(RandomEffectsTest, TellsWhatIsCommonFromWhatIsNot) {
 }
 
 TEST(RandomEffectsTest, RecoversTheBiasOfEachInterval) {
-  const RandomEffects effects = random_effects(made(2000, 2), 2, kParity, {});
+  const RandomEffects effects = random_effects(made(2000, 2), alike(2), kParity, {});
   EXPECT_NEAR(effects.bias[0][0], 0.5, 0.02);
   EXPECT_NEAR(effects.bias[1][0], -0.2, 0.02);
   EXPECT_NEAR(effects.bias[0][1], 0.1, 0.02);
@@ -50,25 +55,25 @@ TEST(RandomEffectsTest, WithoutACommonPartNoneIsFound) {
   for (int i = 0; i < 4000; ++i) {
     draws.push_back({i / 8, i % 2, false, Eigen::Vector2d(rng.normal(), rng.normal())});
   }
-  const RandomEffects effects = random_effects(draws, 2, kParity, {});
+  const RandomEffects effects = random_effects(draws, alike(2), kParity, {});
   EXPECT_LT(effects.common(0, 0), 0.02);
   EXPECT_NEAR(effects.covariance[0](0, 0), 1, 0.1);
 }
 
 TEST(RandomEffectsTest, AnOutlierMovesABiasByABoundedAmount) {
   std::vector<Draw> draws = made(1000, 4);
-  const RandomEffects before = random_effects(draws, 2, kParity, {});
+  const RandomEffects before = random_effects(draws, alike(2), kParity, {});
   draws[0].error[0] += 1000;
-  const RandomEffects after = random_effects(draws, 2, kParity, {});
+  const RandomEffects after = random_effects(draws, alike(2), kParity, {});
   EXPECT_LT((after.bias[0] - before.bias[0]).norm(), 0.05);
   EXPECT_LT(after.covariance[0](0, 0), 2 * before.covariance[0](0, 0));
 }
 
 TEST(RandomEffectsTest, ATailOfOneInTwentyMovesABiasLittle) {
   std::vector<Draw> draws = made(1000, 4);
-  const RandomEffects before = random_effects(draws, 2, kParity, {});
+  const RandomEffects before = random_effects(draws, alike(2), kParity, {});
   for (std::size_t i = 0; i < draws.size(); i += 40) draws[i].error[0] -= 2;  // of interval 0
-  const RandomEffects after = random_effects(draws, 2, kParity, {});
+  const RandomEffects after = random_effects(draws, alike(2), kParity, {});
   EXPECT_NEAR(after.bias[0][0], before.bias[0][0], 0.03);
   EXPECT_GT(after.covariance[0](0, 0), 2 * before.covariance[0](0, 0));
 }
@@ -76,10 +81,32 @@ TEST(RandomEffectsTest, ATailOfOneInTwentyMovesABiasLittle) {
 TEST(RandomEffectsTest, AnIntervalWithFewDrawsIsDrawnTowardsTheClass) {
   std::vector<Draw> draws = made(500, 5);
   draws.push_back({0, 2, false, Eigen::Vector2d(0.3, 0.1)});
-  const RandomEffects effects = random_effects(draws, 3, kParity, {});
+  const RandomEffects effects = random_effects(draws, alike(3), kParity, {});
   const double sd = std::sqrt(effects.covariance[2](0, 0));
   EXPECT_GT(sd, 0.2);
   EXPECT_LT(sd, 0.5);
+}
+
+/// From the front the first entry leans with the second, from behind against it: an interval with a
+/// few draws is like the class the way it looks from there.
+TEST(RandomEffectsTest, TheClassIsTakenAsItLooksFromTheInterval) {
+  core::Rng rng(7);
+  std::vector<Draw> draws;
+  for (int i = 0; i < 3000; ++i) {
+    const int interval = i % 100 == 0 ? 2 : i % 2;
+    const double sign = interval == 0 ? 1 : -1;
+    const double near = rng.normal(0, 0.02), far = rng.normal(0, 0.2);
+    draws.push_back({i / 4, interval, false, Eigen::Vector2d(sign * (near + far), near - far)});
+  }
+  const Eigen::Vector2d front(1, 1), behind(-1, 1);
+  const Eigen::Vector2d parity(1, 1);
+  const std::vector<Eigen::VectorXd> by_nearer = {front, behind, behind};
+  const auto near_sd = [](const RandomEffects& effects) {
+    const Eigen::MatrixXd of_new = effects.covariance[2] + effects.common;
+    return std::sqrt(Eigen::Vector2d(-1, 1).dot(of_new * Eigen::Vector2d(-1, 1)));
+  };
+  EXPECT_LT(near_sd(random_effects(draws, by_nearer, parity, {})), 0.08);
+  EXPECT_GT(near_sd(random_effects(draws, alike(3), parity, {})), 0.12);
 }
 
 TEST(RandomEffectsTest, WhatDrawsLeaveOpenMovesNothing) {
@@ -89,7 +116,7 @@ TEST(RandomEffectsTest, WhatDrawsLeaveOpenMovesNothing) {
     draws[i].open = Eigen::Vector2d(0, 1);
     draws[i].error[1] += 50;
   }
-  const RandomEffects effects = random_effects(draws, 2, kParity, {});
+  const RandomEffects effects = random_effects(draws, alike(2), kParity, {});
   EXPECT_NEAR(effects.bias[0][1], 0.1, 0.03);
   EXPECT_NEAR(effects.bias[1][0], -0.2, 0.03);
   EXPECT_NEAR(std::sqrt(effects.common(0, 0)), 0.3, 0.02);
