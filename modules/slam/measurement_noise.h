@@ -41,7 +41,7 @@ struct MeasurementNoiseConfig {
             "sd of a vehicle's top over its bottom: from afar the roof is not seen");
     v.field("common_place_m", common_place_m, {0, 10}, "m",
             "sd of a vehicle's place along each axis that no number of windows takes away; this "
-            "and those below only widen the covariances that a map reports");
+            "and those to common_taper only widen the covariances that a map reports");
     v.field("common_length_m", common_length_m, {0, 10}, "m",
             "the same of its length: shapes that are no box");
     v.field("common_width_m", common_width_m, {0, 10}, "m", "the same of its width");
@@ -79,7 +79,7 @@ struct MeasurementNoiseConfig {
     v.field("fitted_class_width_m", fitted_class_width_m, {0.01, 10}, "m",
             "sd of a class's widths, which a width is known by that no view measured: each window "
             "states a part of it (detection.vehicle.prior_windows), and those of a cell count "
-            "once. Only narrows the covariances that a map reports");
+            "once. Only narrows what maps, those that are planned with, too, say of widths");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",
@@ -110,8 +110,8 @@ struct MeasurementNoiseConfig {
                                                const MeasurementNoiseConfig& config);
 
 /// A cuboid's covariance once the class's widths are known to scatter by `sd` (m): Kalman's update
-/// without what it moves, for a width that was not measured is the class's already.
-/// \param covariance 9×9
+/// without what it moves, for a width that was not measured is the class's already, and one that
+/// was is known far better. \param covariance 9×9
 [[nodiscard]] Eigen::MatrixXd with_class_width(const Eigen::MatrixXd& covariance, double sd);
 
 /// The graph takes every window for a measurement of its own (`slam.measurement_noise: fixed`), but

@@ -59,7 +59,8 @@ struct SlamConfig {
 };
 
 /// Widens what a graph says of an object by what windows share of their errors, which the graph
-/// takes for independent: of the measurements alone, not of the poses.
+/// takes for independent: of the measurements alone, not of the poses. With fitted noise a width
+/// that was not measured is known by its class.
 void widen(Eigen::MatrixXd& covariance, const Landmark& landmark, Chains chains,
            const SlamConfig& config);
 

@@ -204,8 +204,10 @@ int distance(const Intervals& intervals, int a, int b) {
          std::abs(a % intervals.sectors - b % intervals.sectors);
 }
 
-/// Intervals that were hardly flown take the values of the nearest that was, if there is one.
-void fill(Parts& parts, const RandomEffects& effects, int least_draws) {
+/// Intervals that were hardly flown take the values of the nearest that was, if there is one, as
+/// they look from there.
+void fill(Parts& parts, const RandomEffects& effects, std::span<const Eigen::VectorXd> alike,
+          int least_draws) {
   const int count = parts.intervals.size();
   for (int i = 0; i < count; ++i) {
     int nearest = -1;
@@ -218,8 +220,9 @@ void fill(Parts& parts, const RandomEffects& effects, int least_draws) {
     }
     const auto from = static_cast<std::size_t>(nearest < 0 ? i : nearest);
     auto& interval = parts.fitted[static_cast<std::size_t>(i)];
-    interval.bias = effects.bias[from];
-    interval.covariance = effects.covariance[from];
+    const Eigen::VectorXd turned = alike[static_cast<std::size_t>(i)].cwiseProduct(alike[from]);
+    interval.bias = turned.cwiseProduct(effects.bias[from]);
+    interval.covariance = turned.asDiagonal() * effects.covariance[from] * turned.asDiagonal();
     interval.objects = nearest == i ? effects.draws[from] : 0;
   }
 }
@@ -263,7 +266,7 @@ Parts fit_parts(std::span<const SeenDraw> seen, const Intervals& intervals,
     }
   }
   parts.common = effects.common;
-  fill(parts, effects, config.least_draws);
+  fill(parts, effects, alike, config.least_draws);
   return parts;
 }
 

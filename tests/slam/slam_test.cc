@@ -134,6 +134,7 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
       if (is_cuboid(own.objects[i].model)) {
         expect_widened(3, all ? noise.shared_place : 1);
         expect_widened(6, all ? noise.shared_length : 1);
+        if (all) expect_widened(7, noise.shared_width);
         expect_widened(8, 1);
       } else {
         expect_widened(0, all ? noise.shared_root : 1);
@@ -141,6 +142,21 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
       }
     }
   }
+}
+
+TEST(Slam, WithFittedNoiseNoWidthIsReportedWorseThanItsClassKnowsIt) {
+  SlamConfig config = honest_config();
+  config.measurement_noise = NoiseSource::fitted;
+  config.noise.fitted_class_width_m = 0.01;
+  Drive drive(config, Robot(ring_of_objects(12, 5), {.drawn = 0}, 1));
+  drive.along(loop(12, 1, 1));
+  int vehicles = 0;
+  for (const objects::MapObject& object : drive.slam.map_given_poses().objects) {
+    if (!is_cuboid(object.model)) continue;
+    EXPECT_LE(std::sqrt(object.covariance(7, 7)), 0.01);
+    ++vehicles;
+  }
+  EXPECT_EQ(vehicles, 5);
 }
 
 TEST(Slam, NoEndOfAnIncompleteObjectIsReportedBetterThanOneWindowSawIt) {
