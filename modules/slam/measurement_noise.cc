@@ -55,8 +55,8 @@ Eigen::VectorXd common_variances(const Model& model, const MeasurementNoiseConfi
 
 Eigen::MatrixXd with_class_width(const Eigen::MatrixXd& covariance, double sd) {
   constexpr Eigen::Index kWidth = 7;
-  const Eigen::VectorXd with_all = covariance.col(kWidth);
-  return covariance - with_all * with_all.transpose() / (with_all[kWidth] + sd * sd);
+  const Eigen::VectorXd of_width = covariance.col(kWidth);
+  return covariance - of_width * of_width.transpose() / (of_width[kWidth] + sd * sd);
 }
 
 Eigen::MatrixXd widened(const Model& model, const Eigen::MatrixXd& covariance,

@@ -74,10 +74,11 @@ struct MeasurementNoiseConfig {
             "its sides, as fit.whole_width_sd_m: what they state beyond that is where the hidden "
             "side is");
     v.field("fitted_hidden_side_m", fitted_hidden_side_m, {0, 10}, "m",
-            "but no more than this: the class's widths differ by 0.1 m, and a few view cells from "
-            "one side say the same of it");
+            "but no more than this: vehicles of one height differ by 0.1 m at most, and a few view "
+            "cells from one side say the same of it");
     v.field("fitted_class_width_m", fitted_class_width_m, {0.01, 10}, "m",
-            "sd of a class's widths, which a width is known by that no view measured: each window "
+            "detection.vehicle.width_sd_m, by which a width is known that no view measured: each "
+            "window "
             "states a part of it (detection.vehicle.prior_windows), and those of a cell count "
             "once. Only narrows what maps, those that are planned with, too, say of widths");
     v.field("shared_root", shared_root, {1, 10000}, "",

@@ -18,6 +18,11 @@ struct Addition {
   Matrix covariance;
 };
 
+Vector flipped(const Vector& signs, const Vector& v) { return v.cwiseProduct(signs); }
+Matrix flipped(const Vector& signs, const Matrix& m) {
+  return signs.asDiagonal() * m * signs.asDiagonal();
+}
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Estimation {
@@ -72,22 +77,15 @@ class Estimation {
            Matrix::Identity(parity_.size(), parity_.size());
   }
 
-  [[nodiscard]] Vector mirrored(const Vector& v) const { return v.cwiseProduct(parity_); }
-  [[nodiscard]] Matrix mirrored(const Matrix& m) const {
-    return parity_.asDiagonal() * m * parity_.asDiagonal();
-  }
   /// From the object's own frame to "as if seen from the left", and back.
   template <class T>
   [[nodiscard]] T folded(const Draw& draw, const T& own) const {
-    return draw.mirrored ? mirrored(own) : own;
+    return draw.mirrored ? flipped(parity_, own) : own;
   }
-
   /// From an interval to what all are alike in, and back.
-  [[nodiscard]] Vector alike(std::size_t interval, const Vector& v) const {
-    return v.cwiseProduct(alike_[interval]);
-  }
-  [[nodiscard]] Matrix alike(std::size_t interval, const Matrix& m) const {
-    return alike_[interval].asDiagonal() * m * alike_[interval].asDiagonal();
+  template <class T>
+  [[nodiscard]] T alike(std::size_t interval, const T& own) const {
+    return flipped(alike_[interval], own);
   }
 
   [[nodiscard]] std::vector<Matrix> inverse_covariances() const {
@@ -145,7 +143,7 @@ class Estimation {
     location_.assign(intervals, mean);
     bias_.assign(intervals, mean);
     covariance_.assign(intervals, 0.5 * covariance);
-    common_ = 0.25 * (covariance + mirrored(covariance));
+    common_ = 0.25 * (covariance + flipped(parity_, covariance));
   }
 
   /// One step of Huber's M-estimator of location (Annals of Mathematical Statistics 35, 1964),
@@ -250,7 +248,7 @@ class Estimation {
       sum += addition.mean * addition.mean.transpose() + addition.covariance;
     }
     const Matrix common = sum / static_cast<double>(additions_.size()) + least();
-    common_ = 0.5 * (common + mirrored(common));  // a class is its own mirror image
+    common_ = 0.5 * (common + flipped(parity_, common));  // a class is its own mirror image
   }
 
   std::span<const Draw> draws_;
