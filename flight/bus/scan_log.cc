@@ -11,18 +11,12 @@
 namespace saker::flight {
 namespace {
 
-// Deskewing moves the points of open beams by less than this.
-constexpr float kMostDeskewing_m = 5;
 constexpr std::array<unsigned char, 4> kSyncWord = {0xed, 0xa1, 0xda, 0x01};
 
 std::optional<scan_t> scan_of(const lcm::LogEvent& event) {
   scan_t message{};
   if (message.decode(event.data, 0, event.datalen) < 0) return std::nullopt;
   return message;
-}
-
-bool is_open_beam(const Eigen::Vector3f& point) {
-  return point.norm() > autonomy::OpenBeams::kOpen_m - kMostDeskewing_m;
 }
 
 bool is_scan_channel(const std::string& channel) {
@@ -72,7 +66,7 @@ std::optional<lidar::Frame> ScanLog::next() {
     frame.name = fmt::format("{:06}", scans_++);
     frame.scan.stamp = scan->stamp;
     for (std::size_t i = 0; i < scan->points->size(); ++i) {
-      if (is_open_beam((*scan->points)[i])) continue;
+      if (autonomy::OpenBeams::is_open((*scan->points)[i])) continue;
       frame.scan.points.push_back((*scan->points)[i]);
       frame.scan.reflectivity.push_back((*scan->reflectivity)[i]);
     }

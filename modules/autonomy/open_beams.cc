@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace saker::autonomy {
 namespace {
@@ -52,6 +53,15 @@ std::vector<Eigen::Vector3f> OpenBeams::added_to(const lidar::Scan& scan) {
     }
   }
   return points;
+}
+
+void OpenBeams::drop_steep(std::vector<Eigen::Vector3f>& points,
+                           const Eigen::Matrix3d& R_odom_lidar) {
+  const Eigen::Vector3f up = R_odom_lidar.row(2).transpose().cast<float>();
+  const auto lowest = static_cast<float>(-std::sin(kSteepest_deg * std::numbers::pi / 180));
+  for (Eigen::Vector3f& point : points) {
+    if (is_open(point) && up.dot(point) < lowest * point.norm()) point.setConstant(NAN);
+  }
 }
 
 }  // namespace saker::autonomy

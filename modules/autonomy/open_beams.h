@@ -14,17 +14,31 @@ namespace saker::autonomy {
 ///
 /// Such a beam becomes a point `kOpen_m` away, farther than any return: it clears, and is used for
 /// nothing else. Taken for open is a pixel that has no return, as its eight neighbours, in a column
-/// that came (one with a return): single drop-outs and lost packets are not open. What is nearer
-/// than 15 m and swallows a whole patch of beams (a mirror, black glass) is missed: it is missed by
-/// the other beams too.
+/// that came (one with a return): single drop-outs and lost packets are not open. Nor is one that
+/// leads down to the ground: what swallows it is there, polished black paint or water. Glass at
+/// eye level is missed: it is missed by the other beams too.
 class OpenBeams {
  public:
   static constexpr float kOpen_m = 200;
+  static constexpr float kMostDeskewing_m = 5;  ///< by which deskewing moves such a point, at most
+  /// Below the horizon: at 3 m above the ground such a beam meets it at 34 m, where dull ground
+  /// answers no more.
+  static constexpr double kSteepest_deg = 5;
 
   explicit OpenBeams(const lidar::SensorInfo& info);
 
   /// The scan's points, with those of open beams. An unorganised scan has none.
   [[nodiscard]] std::vector<Eigen::Vector3f> added_to(const lidar::Scan& scan);
+
+  /// Takes out (NaN) those that lead down to the ground.
+  /// \param points  of `added_to`, deskewed: lidar frame, m
+  /// \param R_odom_lidar  z of `odom` is up
+  static void drop_steep(std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3d& R_odom_lidar);
+
+  /// Whether a point stands for such a beam.
+  [[nodiscard]] static bool is_open(const Eigen::Vector3f& point) {
+    return point.norm() > kOpen_m - kMostDeskewing_m;
+  }
 
  private:
   /// The column as sent, of a destaggered one.

@@ -68,9 +68,11 @@ IngestedScan Ingestion::register_scan(lidar::Frame frame) {
   if (!T_start_odometry_) {
     T_start_odometry_ = to_start_frame(estimate.T_odom_lidar * T_body_lidar_.inverse());
   }
+  const SE3 T_odom_lidar = *T_start_odometry_ * estimate.T_odom_lidar;
+  OpenBeams::drop_steep(estimate.points, T_odom_lidar.linear());
   result.registered = {
       estimate.stamp,
-      *T_start_odometry_ * estimate.T_odom_lidar,
+      T_odom_lidar,
       std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points)),
       {result.scan, &result.scan->reflectivity}};
   result.covariance = estimate.covariance;

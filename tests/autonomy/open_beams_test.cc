@@ -78,6 +78,22 @@ TEST_F(OpenBeamsTest, AColumnThatDidNotComeIsNotOpen) {
   EXPECT_TRUE(filled(0, column).hasNaN());
 }
 
+TEST(OpenBeams, ThoseThatLeadDownToTheGroundAreNot) {
+  const double pitch = 0.2;  // nose down: what is ahead of the sensor is below the horizon
+  const Eigen::Matrix3d R_odom_lidar =
+      Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  std::vector<Eigen::Vector3f> points = {{OpenBeams::kOpen_m, 0, 0}, {-OpenBeams::kOpen_m, 0, 0}};
+  OpenBeams::drop_steep(points, R_odom_lidar);
+  EXPECT_TRUE(points[0].hasNaN());
+  EXPECT_FALSE(points[1].hasNaN());
+}
+
+TEST(OpenBeams, ReturnsFromTheGroundAreKept) {
+  std::vector<Eigen::Vector3f> points = {{10, 0, -10}};
+  OpenBeams::drop_steep(points, Eigen::Matrix3d::Identity());
+  EXPECT_FALSE(points[0].hasNaN());
+}
+
 TEST_F(OpenBeamsTest, AnUnorganisedScanHasNone) {
   scan.rows = 0;
   EXPECT_TRUE(filled(0, 100).hasNaN());
