@@ -87,8 +87,8 @@ struct PamsConfig {
     config.common_counts = true;
     config.map_counts = true;
     config.price_per_s = 0.3;
-    config.discovered_price_per_s = 0.6;
-    config.least_price_per_s = 0.1;
+    config.discovered_price_per_s = 1;
+    config.least_price_per_s = 0.2;
     config.at_once = 4;
     config.replan = true;
     config.drift_counts = true;
