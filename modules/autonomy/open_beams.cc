@@ -55,12 +55,12 @@ std::vector<Eigen::Vector3f> OpenBeams::added_to(const lidar::Scan& scan) {
   return points;
 }
 
-void OpenBeams::drop_steep(std::vector<Eigen::Vector3f>& points,
-                           const Eigen::Matrix3d& R_odom_lidar) {
-  const Eigen::Vector3f up = R_odom_lidar.row(2).transpose().cast<float>();
-  const auto lowest = static_cast<float>(-std::sin(kSteepest_deg * std::numbers::pi / 180));
+void OpenBeams::drop_steep(std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar) {
+  const Eigen::Vector3f up = T_odom_lidar.linear().row(2).transpose().cast<float>();
+  const double flat = std::sin(kFlat_deg * std::numbers::pi / 180);
+  const double down = std::max(flat, T_odom_lidar.translation().z() / kGroundAnswers_m);
   for (Eigen::Vector3f& point : points) {
-    if (is_open(point) && up.dot(point) < lowest * point.norm()) point.setConstant(NAN);
+    if (is_open(point) && -up.dot(point) > down * point.norm()) point.setConstant(NAN);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/se3.h"
 #include "lidar/ray_table.h"
 #include "lidar/scan.h"
 #include "lidar/sensor_info.h"
@@ -21,19 +22,20 @@ class OpenBeams {
  public:
   static constexpr float kOpen_m = 200;
   static constexpr float kMostDeskewing_m = 5;  ///< by which deskewing moves such a point, at most
-  /// Below the horizon: at 3 m above the ground such a beam meets it at 34 m, where dull ground
-  /// answers no more.
-  static constexpr double kSteepest_deg = 5;
+  /// Below the horizon: flatter ones meet level ground too flatly for an answer.
+  static constexpr double kFlat_deg = 5;
+  /// Along a beam: farther away not even bright ground answers.
+  static constexpr double kGroundAnswers_m = 60;
 
   explicit OpenBeams(const lidar::SensorInfo& info);
 
   /// The scan's points, with those of open beams. An unorganised scan has none.
   [[nodiscard]] std::vector<Eigen::Vector3f> added_to(const lidar::Scan& scan);
 
-  /// Takes out (NaN) those that lead down to the ground.
+  /// Takes out (NaN) those that lead down to the ground, which is about as high as z = 0 of `odom`,
+  /// where the vehicle took off.
   /// \param points  of `added_to`, deskewed: lidar frame, m
-  /// \param R_odom_lidar  z of `odom` is up
-  static void drop_steep(std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3d& R_odom_lidar);
+  static void drop_steep(std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar);
 
   /// Whether a point stands for such a beam.
   [[nodiscard]] static bool is_open(const Eigen::Vector3f& point) {

@@ -69,7 +69,7 @@ IngestedScan Ingestion::register_scan(lidar::Frame frame) {
     T_start_odometry_ = to_start_frame(estimate.T_odom_lidar * T_body_lidar_.inverse());
   }
   const SE3 T_odom_lidar = *T_start_odometry_ * estimate.T_odom_lidar;
-  OpenBeams::drop_steep(estimate.points, T_odom_lidar.linear());
+  OpenBeams::drop_steep(estimate.points, T_odom_lidar);
   result.registered = {
       estimate.stamp,
       T_odom_lidar,
