@@ -12,7 +12,7 @@ struct MeasurementNoiseConfig {
   double common_place_m = 0.03;
   double common_length_m = 0.03;
   double common_width_m = 0.03;
-  double common_root_m = 0.03;
+  double common_root_m = 0.025;
   double common_radius_m = 0.015;
   double common_taper = 0.12;
   double shared_place = 2.5;
@@ -46,7 +46,7 @@ struct MeasurementNoiseConfig {
             "the same of its length: shapes that are no box");
     v.field("common_width_m", common_width_m, {0, 10}, "m", "the same of its width");
     v.field("common_root_m", common_root_m, {0, 10}, "m",
-            "the same of a trunk's or pole's root along x and y");
+            "the same of a cylinder's root along x and y: poles' NEES was 0.65 with 0.03 m");
     v.field("common_radius_m", common_radius_m, {0, 10}, "m",
             "the same of its radius: poles' NEES was 1.4 with 0.01 m (102 missions of saker)");
     v.field("common_taper", common_taper, {0, 1}, "",
