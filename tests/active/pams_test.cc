@@ -303,6 +303,7 @@ TEST(Saker, TakesABetterViewpointWhenOneAppears) {
 /// The next viewpoint is chosen while the vehicle still comes nearer to this one.
 TEST(Saker, TakesWhatIsCommittedForFlown) {
   PamsConfig config = never_enough(PamsConfig::saker());
+  config.price_per_s = 0;  // worth the way, however far
   PamsFlight flight(config, {car(30, 0)});
   const Viewpoint first = *flight.decide().goal;
   ActiveStart start{.stamp = flight.input.stamp + from_seconds(1.7)};
