@@ -21,11 +21,6 @@ namespace saker::autonomy {
 class OpenBeams {
  public:
   static constexpr float kOpen_m = 200;
-  static constexpr float kMostDeskewing_m = 5;  ///< by which deskewing moves such a point, at most
-  /// Below the horizon: flatter ones meet level ground too flatly for an answer.
-  static constexpr double kFlat_deg = 5;
-  /// Along a beam: farther away not even bright ground answers.
-  static constexpr double kGroundAnswers_m = 60;
 
   explicit OpenBeams(const lidar::SensorInfo& info);
 
@@ -43,6 +38,12 @@ class OpenBeams {
   }
 
  private:
+  static constexpr float kMostDeskewing_m = 5;  ///< by which deskewing moves such a point, at most
+  /// Below the horizon: flatter ones meet level ground too flatly for an answer.
+  static constexpr double kFlat_deg = 5;
+  /// Along a beam: farther away not even bright ground answers.
+  static constexpr double kGroundAnswers_m = 60;
+
   /// The column as sent, of a destaggered one.
   [[nodiscard]] int sent_column(int row, int column) const;
   [[nodiscard]] bool silent_around(const lidar::Scan& scan, int row, int column) const;
