@@ -313,7 +313,7 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   expected.target_id = target.id;
   expected.object_id = target.object_id;
   expected.gain = path_through(choice.problem, {stop}).gain;
-  expected.covariance = covariance.topLeftCorner(common.rows(), common.cols());
+  expected.covariance = recalibrated(covariance.topLeftCorner(common.rows(), common.cols()), pams_);
   expected_ = expected;
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "objects/stated_length.h"
 #include "objects/view_cell.h"
+#include "slam/model_algebra.h"
 #include "uncertainty/view.h"
 
 namespace saker::autonomy {
@@ -46,11 +47,12 @@ Eigen::Matrix3d sight_frame(const Eigen::Vector3d& place) {
   return frame;
 }
 
-/// Of [x, y, length, width]: what a window that states its length badly is worth beside most.
-Eigen::Vector4d by_stated(double length_sd, const slam::MeasurementNoiseConfig& noise) {
-  const double along =
-      std::pow(std::max(1.0, length_sd / noise.fitted_length_sd_m), noise.fitted_length_power);
-  return {along, 1, along, 1};
+/// The covariance with neither end better known than a window may know it that states such
+/// variances of the low and the high end.
+void raise_ends(Eigen::MatrixXd& covariance, const Eigen::Vector2d& stated,
+                const slam::MeasurementNoiseConfig& noise) {
+  const Eigen::Vector2d least = stated.cwiseAbs2() / std::pow(noise.fitted_end_sd_m, 2);
+  slam::raise_end_variances(covariance, 0, least);
 }
 
 /// Of [x, y, length, width]: where the side is that a window did not show. The near one stays as
@@ -72,9 +74,10 @@ void correct(Measurement& m, objects::Cuboid cuboid, const uncertainty::Predicti
   cuboid.size.head<2>() -= bias.tail<2>();
   const std::vector<int> rows = objects::planar_rows(m.model);
   const double width_sd = std::sqrt(m.covariance(rows[3], rows[3]));
-  const Eigen::Vector4d scale = by_stated(m.length_sd, noise);
-  const Eigen::Matrix4d both_sides = scale.asDiagonal() * fitted.covariance * scale.asDiagonal();
-  m.covariance = with_planar(m.covariance, rows, both_sides + hidden_side(cuboid, width_sd, noise));
+  const Eigen::Vector2d stated_ends = slam::end_variances(m.covariance, 0);
+  m.covariance =
+      with_planar(m.covariance, rows, fitted.covariance + hidden_side(cuboid, width_sd, noise));
+  raise_ends(m.covariance, stated_ends, noise);
   m.model = cuboid;
 }
 

@@ -29,11 +29,11 @@ struct UncertaintyConfig {
 /// each one and its covariance of [x, y, length, width] (cuboid) or of the root's x and y
 /// (cylinder) is the fitted one. The rest stays as detection says, and so do measurements from a
 /// view that was not flown and cuboids that were not seen from end to end: which end is hidden
-/// varies with what stands around. Windows that state a vehicle's length worse than most did in the
-/// fit are as much worse along it (`slam.noise.fitted_length_sd_m`); where a side was hidden it is
-/// as badly known as the class's widths differ (`slam.noise.fitted_hidden_side_m`). All from one
-/// cell count once, those that were left as they are beside the others. A class that the model does
-/// not know is left alone.
+/// varies with what stands around. An end that a window states badly is no better known than such
+/// ends were (`slam.noise.fitted_end_sd_m`); where a side was hidden it is as badly known as the
+/// class's widths differ (`slam.noise.fitted_hidden_side_m`). All from one cell count once, those
+/// that were left as they are beside the others. A class that the model does not know is left
+/// alone.
 ///
 /// On the way out, the map's covariances get what all measurements of an object share.
 ///

@@ -72,7 +72,36 @@ double place_in_shadow(double top, double other, const ShadowConfig& config) {
   return std::lerp(config.least_place, of_front, front);
 }
 
+/// Lower than its windows.
+objects::Cuboid inner_part(const Footprint& footprint, const GapConfig& gap) {
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(gap.inset_m);
+  return upright(footprint.direction, {footprint.low + margin, footprint.high - margin},
+                 {gap.lowest_m, gap.highest_m});
+}
+
+/// Just behind the middle of the low or the high side.
+objects::Cuboid behind_side(const Footprint& footprint, int side, const GapConfig& gap) {
+  const double middle = 0.5 * (footprint.low.x() + footprint.high.x());
+  const double half = 0.5 * gap.side_share * footprint.size().x();
+  const double low = side == 0 ? footprint.low.y() + gap.side_inset_m
+                               : footprint.high.y() - gap.side_inset_m - gap.side_depth_m;
+  return upright(footprint.direction,
+                 {Eigen::Vector2d(middle - half, low), {middle + half, low + gap.side_depth_m}},
+                 {gap.lowest_m, gap.highest_m});
+}
+
 }  // namespace
+
+bool parted(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
+  const GapConfig& gap = config.gap;
+  if (sight.through(inner_part(footprint, gap)) >= gap.beams) return true;
+  const auto looked = looked_at(footprint, sight.sensors, 1, config.noise.setback);
+  for (int side = 0; side < 2; ++side) {
+    if (looked[side] <= config.footprint.looked_at) continue;
+    if (sight.through(behind_side(footprint, side, gap)) >= gap.beams) return true;
+  }
+  return false;
+}
 
 std::vector<Eigen::Vector2d> within(const Footprint& footprint,
                                     const std::vector<Eigen::Vector2d>& places, const Sight& sight,

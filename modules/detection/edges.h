@@ -26,6 +26,12 @@ struct FootprintEdge : Edge {
 
 using Edges = std::array<std::array<FootprintEdge, 2>, 2>;  ///< [axis][low, high]
 
+/// Whether beams went through what a vehicle fills: its inner part, or what lies just behind the
+/// middle of a side that was looked at, where two that stand beside each other show their ends and
+/// nothing of their depth. The footprint's first axis is the length.
+[[nodiscard]] bool parted(const Footprint& footprint, const Sight& sight,
+                          const VehicleConfig& config);
+
 /// Where the edges of a footprint whose first axis is the length are, and how well that is known.
 /// What hides an edge, or loses its points, only takes away: that the vehicle ends there is seen by
 /// beams that went through where it would go on. An end that no sensor looked at is hidden behind

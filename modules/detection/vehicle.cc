@@ -278,13 +278,6 @@ VehicleStatus judge(const Footprint& footprint, double top, const VehicleConfig&
   return small ? VehicleStatus::too_small : VehicleStatus::fitted;
 }
 
-/// What a vehicle fills: its inner part, lower than its windows.
-objects::Cuboid inside(const Footprint& footprint, const GapConfig& gap) {
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(gap.inset_m);
-  return upright(footprint.direction, {footprint.low + margin, footprint.high - margin},
-                 {gap.lowest_m, gap.highest_m});
-}
-
 }  // namespace
 
 VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
@@ -298,11 +291,11 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
   const double top = top_of(points, config.top_percentile);
   fit.status = judge(footprint, top, config);
   if (fit.status != VehicleStatus::fitted) return fit;
-  if (sight.through(inside(footprint, config.gap)) >= config.gap.beams) {
+  const Rectangle best = likelier(footprint, points, top, sight, config);
+  if (parted(best.footprint, sight, config)) {
     fit.status = VehicleStatus::parted;
     return fit;
   }
-  const Rectangle best = likelier(footprint, points, top, sight, config);
   fit.cuboid = cuboid_of(best, top);
   fit.covariance = covariance_of(best, config.noise);
   fit.front_log_odds = front_log_odds(points, fit.motion, best, config);

@@ -90,12 +90,21 @@ struct GapConfig {
   double inset_m = 0.35;
   double lowest_m = 0.35;
   double highest_m = 0.75;
+  double side_inset_m = 0.15;
+  double side_depth_m = 0.2;
+  double side_share = 0.5;
   int beams = 4;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("inset_m", inset_m, {0, 2}, "m",
             "from the footprint's edges: rounded corners and a heading that is off");
+    v.field("side_inset_m", side_inset_m, {0, 2}, "m",
+            "from a side that was looked at, where what lies behind it was not seen: its noise");
+    v.field("side_depth_m", side_depth_m, {0.01, 2}, "m",
+            "from there: as deep as beams come aslant between two vehicles half a metre apart");
+    v.field("side_share", side_share, {0.01, 1}, "",
+            "of the length, in its middle, where that is looked for: between the wheel arches");
     v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: higher than beams pass below");
     v.field("highest_m", highest_m, {0.1, 3}, "m", "above the ground: lower than windows");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");

@@ -46,9 +46,9 @@ Eigen::VectorXd common_variances(const Model& model, const MeasurementNoiseConfi
     sd.segment<2>(3).setConstant(config.common_place_m);
     sd.segment<2>(6) << config.common_length_m, config.common_width_m;
   } else {
-    sd.head<2>().setConstant(config.common_root_m);
-    const double taper = config.common_taper * std::get<objects::Cylinder>(model).radius;
-    sd[5] = std::hypot(config.common_radius_m, taper);
+    const double radius = std::get<objects::Cylinder>(model).radius;
+    sd.head<2>().setConstant(config.common_root * radius);
+    sd[5] = std::hypot(config.common_radius_m, config.common_taper * radius);
   }
   return sd.cwiseAbs2();
 }

@@ -185,6 +185,8 @@ TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue
   PamsConfig config = never_enough(GetParam());
   config.drift_counts = false;
   config.price_per_s = 0;
+  config.expected_share = 1;
+  config.expected_least_m = 0;
   PamsFlight flight(config, {car(20, 0)});
   flight.fly(600);
   ASSERT_GE(flight.flown.size(), 2U);
@@ -364,6 +366,7 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
   const Knowledge known(target, looks, model, pams);
   Eigen::Matrix4d after = known.belief().covariance();
   if (!GetParam().common_counts) after += model.common(target.class_id);
+  after = recalibrated(after, pams);
   const Eigen::Matrix4d predicted = flight.flown.front().covariance;
   EXPECT_NEAR(0.5 * std::log(predicted.determinant() / after.determinant()), 0, 0.4);
 }

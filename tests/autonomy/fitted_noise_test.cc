@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "made_model.h"
 #include "objects/view_cell.h"
+#include "slam/model_algebra.h"
 #include "uncertainty/fit.h"
 
 namespace saker::autonomy {
@@ -36,6 +37,14 @@ SE3 flat_pose(double x, double y, double z, double yaw) {
   return T;
 }
 
+/// What a window states of its ends, m.
+void state_ends(Measurement& m, double rear_sd, double front_sd) {
+  const double rear = rear_sd * rear_sd, front = front_sd * front_sd;
+  m.covariance(3, 3) = (front + rear) / 4;
+  m.covariance(6, 6) = front + rear;
+  m.covariance(3, 6) = m.covariance(6, 3) = (front - rear) / 2;
+}
+
 /// A car ahead of the lidar, turned by `yaw`.
 Measurement car(double range, double yaw) {
   Measurement m;
@@ -43,9 +52,8 @@ Measurement car(double range, double yaw) {
   m.model = Cuboid{flat_pose(range, 0, -2, yaw), {4.5, 1.8, 1.5}};
   m.covariance = Vector9d::LinSpaced(0.01, 0.09).asDiagonal();
   m.covariance(5, 8) = m.covariance(8, 5) = 0.02;
-  m.covariance(3, 6) = m.covariance(6, 3) = 0.01;
+  state_ends(m, 0.02, 0.02);         // both were looked at
   m.covariance(7, 7) = 0.15 * 0.15;  // both sides were seen
-  m.length_sd = 0.15;                // as most windows state it
   m.front_log_odds = 2;
   return m;
 }
@@ -114,24 +122,21 @@ TEST(FittedNoise, ReplacesTheCovarianceOfPlaceAndSizeAndLeavesTheRest) {
   EXPECT_EQ(Eigen::MatrixXd(P(rest, rest)), Eigen::MatrixXd(m.covariance(rest, rest)));
   EXPECT_EQ(P(plan, rest).norm(), 0);
   EXPECT_EQ(applied(m).view_cell, objects::corrected_cell(fit.cell));
-  EXPECT_EQ(applied(m).length_sd, 0.15);
+  EXPECT_NEAR(applied(m).length_sd, std::sqrt(m.covariance(6, 6)), 1e-12);
   EXPECT_GE(fit.cell, 0);
 }
 
-TEST(FittedNoise, ALengthThatIsStatedWorseThanMostIsAsMuchWorseAndSoIsThePlaceAlongIt) {
+TEST(FittedNoise, AnEndThatIsStatedBadlyIsNoBetterKnownThanThatByItsSquareTheOtherIsAsTheFitSays) {
   slam::SlamConfig config = source(slam::NoiseSource::fitted);
-  config.noise.fitted_length_sd_m = 0.16;
-  config.noise.fitted_length_power = 2;
+  config.noise.fitted_end_sd_m = 0.3;
   Measurement m = car(8, 0.3);
-  m.length_sd = NAN;
-  m.covariance(6, 6) = 0.24 * 0.24;
+  state_ends(m, 0.02, 0.24);
   const Measurement after = applied(m, Eigen::Matrix3d::Identity(), FittedNoise(config, model()));
-  const auto fit = expected(kVehicle, 8, std::numbers::pi - 0.3);
-  const Eigen::Vector4d scale(2.25, 1, 2.25, 1);
-  const std::vector<int> plan = objects::planar_rows(m.model);
-  const Eigen::Matrix4d wanted = scale.asDiagonal() * fit.covariance * scale.asDiagonal();
-  EXPECT_TRUE(Eigen::Matrix4d(after.covariance(plan, plan)).isApprox(wanted, 1e-9));
-  EXPECT_NEAR(after.length_sd, 0.24, 1e-12);
+  const Eigen::Vector2d ends = slam::end_variances(after.covariance, 0);
+  const Eigen::Vector2d known = slam::end_variances(applied(car(8, 0.3)).covariance, 0);
+  EXPECT_NEAR(std::sqrt(ends[1]), 0.24 * 0.24 / 0.3, 1e-9);
+  EXPECT_NEAR(ends[0], known[0], 1e-9);
+  EXPECT_NEAR(after.length_sd, std::hypot(0.02, 0.24), 1e-12);
 }
 
 TEST(FittedNoise, AHiddenSideIsKnownAsBadlyAsWidthsDifferTheNearOneAsTheFitSays) {
@@ -219,9 +224,9 @@ TEST(FittedNoise, FixedNoiseChangesNoMeasurementAndAddsWhatIsConfigured) {
   EXPECT_NEAR(of_car(6, 6), config.common_length_m * config.common_length_m, 1e-12);
   EXPECT_NEAR(of_car(7, 7), config.common_width_m * config.common_width_m, 1e-12);
   const Eigen::MatrixXd of_trunk = map.objects[1].covariance - before.objects[1].covariance;
-  EXPECT_NEAR(of_trunk(0, 0), config.common_root_m * config.common_root_m, 1e-12);
-  const double taper =
-      config.common_taper * std::get<objects::Cylinder>(before.objects[1].model).radius;
+  const double radius = std::get<objects::Cylinder>(before.objects[1].model).radius;
+  const double root = config.common_root * radius, taper = config.common_taper * radius;
+  EXPECT_NEAR(of_trunk(0, 0), root * root, 1e-12);
   EXPECT_NEAR(of_trunk(5, 5), config.common_radius_m * config.common_radius_m + taper * taper,
               1e-12);
   EXPECT_EQ(of_trunk(3, 3), 0);
@@ -239,7 +244,8 @@ TEST(FittedNoise, ReportedCovarianceIsTheGraphsAndTheCommonPart) {
   EXPECT_NEAR(of_car(7, 7), 0.05 * 0.05, 1e-12);
   EXPECT_EQ(of_car(8, 8), 0);
   const Eigen::MatrixXd of_trunk = map.objects[1].covariance - before.objects[1].covariance;
-  const double of_root = slam::MeasurementNoiseConfig().common_root_m;
+  const double of_root = slam::MeasurementNoiseConfig().common_root *
+                         std::get<objects::Cylinder>(before.objects[1].model).radius;
   EXPECT_NEAR(of_trunk(0, 0), of_root * of_root, 1e-12);
   EXPECT_NEAR(of_trunk(1, 1), of_trunk(0, 0), 1e-12);
   EXPECT_EQ(of_trunk(2, 2), 0);

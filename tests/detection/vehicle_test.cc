@@ -259,6 +259,31 @@ TEST(Vehicle, ThatBeamsGoThroughIsMoreThanOne) {
   EXPECT_EQ(both.fitted_to(points).status, VehicleStatus::parted);
 }
 
+std::vector<Eigen::Vector3d> hits_of(const std::vector<BodyPoint>& points) {
+  std::vector<Eigen::Vector3d> hits;
+  for (const BodyPoint& p : points) hits.push_back(p.position.cast<double>());
+  return hits;
+}
+
+/// Those on a face across x at 10 m.
+std::vector<BodyPoint> facing(std::vector<BodyPoint> points) {
+  std::erase_if(points, [](const BodyPoint& p) { return p.position.x() > 10.3; });
+  return points;
+}
+
+TEST(Vehicle, WhoseSideBeamsEnterIsMoreThanOne) {
+  const Eigen::Vector3d sensor(0, -9, 1.2);
+  const MadeBox left{.x = 12.5, .y = 1.2, .length = 5}, right{.x = 12.5, .y = -1.2, .length = 5};
+  const Scene first{sensor, left, {right}}, second{sensor, right, {left}};
+  std::vector<BodyPoint> points = first.points();
+  std::ranges::copy(second.points(), std::back_inserter(points));
+  EXPECT_EQ(first.fitted_to(facing(points), hits_of(points)).status, VehicleStatus::parted);
+  // One whose side is as long, seen from there.
+  const Scene one{sensor, {.x = 10.9, .yaw = M_PI / 2, .length = 4.2}};
+  EXPECT_EQ(one.fitted_to(facing(one.points()), hits_of(one.points())).status,
+            VehicleStatus::fitted);
+}
+
 TEST(Vehicle, ThatMovesIsToldFromOneThatIsParked) {
   for (const double speed : {4.0, 8.0, 12.0}) {
     const VehicleFit fit = Scene{{0, 0, 2}, {12, 3, 0.3}, {}, speed}.fit();

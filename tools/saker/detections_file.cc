@@ -100,6 +100,7 @@ Json measurement_json(const objects::Measurement& m, const objects::ClassTable& 
               {"points", m.points},
               {"moving", m.moving}};
   if (std::isfinite(m.reflectivity)) row["reflectivity"] = m.reflectivity;
+  if (m.front_log_odds != 0) row["front_log_odds"] = m.front_log_odds;
   for (Eigen::Index i = 0; i < m.covariance.rows(); ++i) {
     row["covariance"].push_back(numbers(m.covariance.row(i).transpose()));
   }

@@ -11,7 +11,8 @@
 namespace saker::tools {
 
 /// A line of detections.jsonl: time (s), class, class_probability, model in the lidar frame,
-/// covariance, points, moving, reflectivity (where the sensor says it).
+/// covariance, points, moving, reflectivity (where the sensor says it), front_log_odds (where one
+/// end looks more like the front).
 [[nodiscard]] nlohmann::json measurement_json(const objects::Measurement& measurement,
                                               const objects::ClassTable& table);
 
