@@ -79,15 +79,33 @@ objects::Cuboid inner_part(const Footprint& footprint, const GapConfig& gap) {
                  {gap.lowest_m, gap.highest_m});
 }
 
-/// Just behind the middle of the low or the high side.
-objects::Cuboid behind_side(const Footprint& footprint, int side, const GapConfig& gap) {
+/// Upright along the low or the high side, between distances inward from it and along its middle.
+objects::Cuboid along_side(const Footprint& footprint, int side, const Eigen::Vector2d& inward,
+                           const Eigen::Vector2d& along, const GapConfig& gap) {
   const double middle = 0.5 * (footprint.low.x() + footprint.high.x());
-  const double half = 0.5 * gap.side_share * footprint.size().x();
-  const double low = side == 0 ? footprint.low.y() + gap.side_inset_m
-                               : footprint.high.y() - gap.side_inset_m - gap.side_depth_m;
+  const Eigen::Vector2d across =
+      side == 0 ? Eigen::Vector2d(footprint.low.y() + inward[0], footprint.low.y() + inward[1])
+                : Eigen::Vector2d(footprint.high.y() - inward[1], footprint.high.y() - inward[0]);
   return upright(footprint.direction,
-                 {Eigen::Vector2d(middle - half, low), {middle + half, low + gap.side_depth_m}},
+                 {Eigen::Vector2d(middle + along[0], across[0]), {middle + along[1], across[1]}},
                  {gap.lowest_m, gap.highest_m});
+}
+
+/// Whether somewhere in its middle nothing was met on a side, but beams went on behind it.
+bool open(const Footprint& footprint, int side, const Sight& sight, const GapConfig& gap) {
+  const Eigen::Vector2d face(-gap.side_inset_m, gap.side_inset_m);
+  const Eigen::Vector2d behind(gap.side_inset_m, gap.side_inset_m + gap.side_depth_m);
+  const double half = 0.5 * gap.side_share * footprint.size().x();
+  const auto enter = [&](const Eigen::Vector2d& along) {
+    return sight.through(along_side(footprint, side, behind, along, gap)) >= gap.beams;
+  };
+  if (!enter({-half, half})) return false;
+  for (double at = -half; at + gap.strip_m <= half; at += 0.5 * gap.strip_m) {
+    const Eigen::Vector2d strip(at, at + gap.strip_m);
+    const bool met = sight.filled(along_side(footprint, side, face, strip, gap), 1, 1) > 0;
+    if (!met && enter(strip)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -95,10 +113,10 @@ objects::Cuboid behind_side(const Footprint& footprint, int side, const GapConfi
 bool parted(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
   const GapConfig& gap = config.gap;
   if (sight.through(inner_part(footprint, gap)) >= gap.beams) return true;
+  if (footprint.size().x() < 2 * config.width_m) return false;
   const auto looked = looked_at(footprint, sight.sensors, 1, config.noise.setback);
   for (int side = 0; side < 2; ++side) {
-    if (looked[side] <= config.footprint.looked_at) continue;
-    if (sight.through(behind_side(footprint, side, gap)) >= gap.beams) return true;
+    if (looked[side] > config.footprint.looked_at && open(footprint, side, sight, gap)) return true;
   }
   return false;
 }

@@ -92,7 +92,8 @@ struct GapConfig {
   double highest_m = 0.75;
   double side_inset_m = 0.15;
   double side_depth_m = 0.2;
-  double side_share = 0.5;
+  double side_share = 0.4;
+  double strip_m = 0.25;
   int beams = 4;
 
   template <class Visitor>
@@ -104,7 +105,10 @@ struct GapConfig {
     v.field("side_depth_m", side_depth_m, {0.01, 2}, "m",
             "from there: as deep as beams come aslant between two vehicles half a metre apart");
     v.field("side_share", side_share, {0.01, 1}, "",
-            "of the length, in its middle, where that is looked for: between the wheel arches");
+            "of the length, in its middle, where such is looked for: between the wheel arches");
+    v.field("strip_m", strip_m, {0.05, 2}, "m",
+            "of a side, on which nothing was met, where beams go on behind it: half of the least "
+            "gap between parked vehicles");
     v.field("lowest_m", lowest_m, {0, 2}, "m", "above the ground: higher than beams pass below");
     v.field("highest_m", highest_m, {0.1, 3}, "m", "above the ground: lower than windows");
     v.field("beams", beams, {1, 1000}, "", "that make sure; of those kept (window.beam_stride)");
