@@ -48,9 +48,9 @@ PredictedView predicted(const Eigen::Vector3d& eye, const Target& target, const 
 
 Covariance recalibrated(const Covariance& covariance, const PamsConfig& config) {
   if (covariance.rows() < 4) return covariance;
-  const Eigen::Vector4d share(1, 1, config.expected_share, config.expected_share);
+  const Eigen::Vector4d share(1, 1, config.recalibration.share, config.recalibration.share);
   Eigen::Matrix4d result = share.asDiagonal() * covariance * share.asDiagonal();
-  result.diagonal().tail<2>().array() += std::pow(config.expected_least_m, 2);
+  result.diagonal().tail<2>().array() += std::pow(config.recalibration.least_m, 2);
   return result;
 }
 

@@ -36,6 +36,21 @@ struct LookedFromConfig {
   }
 };
 
+/// Errors of length and width against what was expected of them, by predictions of 60 missions of
+/// `saker`.
+struct RecalibrationConfig {
+  double share = 1;
+  double least_m = 0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("share", share, {0.01, 10}, "",
+            "of the expected sd, at which errors came out: windows that show no end tell, too");
+    v.field("least_m", least_m, {0, 1}, "m",
+            "sd beside it: what single windows take for a part of the vehicle");
+  }
+};
+
 /// One method, PAMS, with two sets of defaults: `paper` as the paper has it, `saker` beyond it.
 struct PamsConfig {
   Sampling sampling = Sampling::centroids;
@@ -51,8 +66,7 @@ struct PamsConfig {
   FacesConfig faces;
   bool common_counts = false;
   bool map_counts = false;
-  double expected_share = 1;
-  double expected_least_m = 0;
+  RecalibrationConfig recalibration;
   double enough_entropy = -10;
   double most_size_sd_m = 10;
   double reopen_share = 1.3;
@@ -88,8 +102,7 @@ struct PamsConfig {
     config.most_size_sd_m = 0.06;  // errors go with what the map states
     config.common_counts = true;
     config.map_counts = true;
-    config.expected_share = 0.7;
-    config.expected_least_m = 0.028;
+    config.recalibration = {.share = 0.7, .least_m = 0.028};
     config.price_per_s = 0.3;
     config.discovered_price_per_s = 1;
     config.least_price_per_s = 0.2;
@@ -122,17 +135,12 @@ struct PamsConfig {
     v.field("prior_width_m", prior_width_m, {0.01, 10}, "m",
             "the same of the width: of a class of vehicles 0.12");
     v.group("faces", faces, "what a view tells of each face of a box");
-    v.field(
-        "common_counts", common_counts, "",
-        "whether the error that all views share is part of the entropy: it cannot be flown off");
+    v.field("common_counts", common_counts, "",
+            "whether the error that all views share, never flown off, is part of the entropy");
     v.field("map_counts", map_counts, "",
             "whether a target is known no better than the map has it: where one view contradicts "
             "others, it is looked at further");
-    v.field("expected_share", expected_share, {0.01, 10}, "",
-            "of the sd of length and width that a viewpoint should leave, at which errors came "
-            "out: windows that show no end tell, too (predictions of 60 missions of saker)");
-    v.field("expected_least_m", expected_least_m, {0, 1}, "m",
-            "sd beside it, by the same: what single windows take for a part of the vehicle");
+    v.group("recalibration", recalibration, "of what is expected of length and width");
     v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
             "½ ln det of the covariance in m² at which a target is known well enough");
     v.field("most_size_sd_m", most_size_sd_m, {0.01, 10}, "m",
@@ -146,11 +154,9 @@ struct PamsConfig {
     v.field("price_per_s", price_per_s, {0, 10}, "nat/s",
             "what a second of flight must bring beside it: the more, the shorter the mission");
     v.field("discovered_price_per_s", discovered_price_per_s, {0, 10}, "nat/s",
-            "the same for a target that the prior map, where there is one, does not have: at 0.3 "
-            "37 of 98 s in a garage went to what nobody asked for");
+            "the same for one that the prior map, if any, lacks: at 0.3 they took 37 of 98 s");
     v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
-            "the same for a prior target where nothing brings so much and a size is not known: at "
-            "0.1, and 0.6 for discovered ones, missions took 74 s instead of 64 s for 0.002 m");
+            "the same for a prior target with a size that is not known: at 0.1 10 s more");
     v.field("at_once", at_once, {1, 8}, "",
             "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
     v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");

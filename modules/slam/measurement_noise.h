@@ -46,8 +46,7 @@ struct MeasurementNoiseConfig {
     v.field("common_width_m", common_width_m, {0, 10}, "m", "the same of its width");
     v.field("common_root", common_root, {0, 1}, "",
             "the same of a cylinder's root along x and y, as a share of its radius: what stands "
-            "about a trunk is taken for it; 0.025 m for all had poles' NEES at 0.57, trunks' at "
-            "1.4 (60 missions of saker)");
+            "about a trunk is taken for it; by the NEES of 60 missions");
     v.field("common_radius_m", common_radius_m, {0, 10}, "m",
             "the same of its radius: poles' NEES was 1.4 with 0.01 m (102 missions of saker)");
     v.field("common_taper", common_taper, {0, 1}, "",

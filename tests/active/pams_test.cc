@@ -185,8 +185,7 @@ TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue
   PamsConfig config = never_enough(GetParam());
   config.drift_counts = false;
   config.price_per_s = 0;
-  config.expected_share = 1;
-  config.expected_least_m = 0;
+  config.recalibration = {};
   PamsFlight flight(config, {car(20, 0)});
   flight.fly(600);
   ASSERT_GE(flight.flown.size(), 2U);
