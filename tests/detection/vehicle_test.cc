@@ -284,6 +284,15 @@ TEST(Vehicle, WhoseSideBeamsEnterIsMoreThanOne) {
             VehicleStatus::fitted);
 }
 
+TEST(Vehicle, OnWhoseSideSomethingWasMetAllAlongIsOneThoughBeamsEnterIt) {
+  const Scene one{{0, -9, 1.2}, {.x = 10.9, .yaw = M_PI / 2, .length = 4.2}};
+  const std::vector<BodyPoint> points = facing(one.points());
+  std::vector<Eigen::Vector3d> hits = hits_of(points);
+  for (const Eigen::Vector3d& hit : hits_of(points))
+    hits.push_back(hit + Eigen::Vector3d(0.6, 0, 0));
+  EXPECT_EQ(one.fitted_to(points, hits).status, VehicleStatus::fitted);
+}
+
 TEST(Vehicle, ThatMovesIsToldFromOneThatIsParked) {
   for (const double speed : {4.0, 8.0, 12.0}) {
     const VehicleFit fit = Scene{{0, 0, 2}, {12, 3, 0.3}, {}, speed}.fit();
