@@ -70,22 +70,28 @@ bool Discovery::accept(const ActiveInput& input) {
 }
 
 void Discovery::find_newcomers() {
-  const DiscoveryConfig& config = config_.discovery;
   std::map<int, Sighting> sightings;
   for (const MapObject& object : map_->objects) {
-    if (!stray(object)) continue;
-    const Eigen::Vector3d place = objects::place(object.model);
-    const auto before = sightings_.find(object.id);
-    const bool settled =
-        before != sightings_.end() && (before->second.place - place).norm() <= config.moved_m;
-    const Sighting sighting = settled ? before->second : Sighting{*last_stamp_, place};
-    sightings.emplace(object.id, sighting);
-    if (to_seconds(*last_stamp_ - sighting.since) < config.settle_s) continue;
-    if (discovered_ >= config.most || !in_reach(object)) continue;
-    policy_->target_list().add(object);
-    ++discovered_;
+    if (stray(object)) watch(object, true, sightings);
+  }
+  for (const MapObject& object : map_->incomplete) {
+    if (stray(object) && fits_the_prior_better(object)) watch(object, false, sightings);
   }
   sightings_ = std::move(sightings);
+}
+
+void Discovery::watch(const MapObject& object, bool complete, std::map<int, Sighting>& sightings) {
+  const DiscoveryConfig& config = config_.discovery;
+  const Eigen::Vector3d place = objects::place(object.model);
+  const auto before = sightings_.find(object.id);
+  const bool settled =
+      before != sightings_.end() && (before->second.place - place).norm() <= config.moved_m;
+  const Sighting sighting = settled ? before->second : Sighting{*last_stamp_, place};
+  sightings.emplace(object.id, sighting);
+  if (to_seconds(*last_stamp_ - sighting.since) < config.settle_s) return;
+  if (discovered_ >= config.most || !in_reach(object)) return;
+  policy_->target_list().add(object, complete);
+  ++discovered_;
 }
 
 /// Whether it would be a target, and is none's: neither itself nor mapped twice.
@@ -95,7 +101,19 @@ bool Discovery::stray(const MapObject& object) const {
   if (!place.allFinite()) return false;
   return std::ranges::none_of(targets(), [&](const Target& target) {
     const double away = (target.place() - place).head<2>().norm();
-    return target.mapped() && (target.object_id == object.id || away < config_.discovery.same_m);
+    const bool holds_it = target.object_id == object.id || target.incomplete_id == object.id;
+    return holds_it || (target.mapped() && away < config_.discovery.same_m);
+  });
+}
+
+/// Whether a target of the prior map would rather be this one than the one that it is.
+bool Discovery::fits_the_prior_better(const MapObject& object) const {
+  return std::ranges::any_of(targets(), [&](const Target& target) {
+    const auto from_prior = [&](const Eigen::Vector3d& place) {
+      return (place - target.prior_place).head<2>().norm();
+    };
+    return !target.discovered && target.mapped() && target.class_id == object.class_id &&
+           from_prior(objects::place(object.model)) < from_prior(target.place());
   });
 }
 

@@ -16,11 +16,13 @@ namespace saker::active {
 /// (the paper, "PAMS": the prior map only guides).
 ///
 /// A mapped object of a target class that is no target's, has been in its place for a while and
-/// lies in the geofence becomes a target. A target that has no object, while nothing but what is
-/// mapped stands at its place and no incomplete object near it, is dismissed: it is not there, or
-/// the same as another. When the policy has nothing left, the geofence is swept, if so configured,
-/// and the policy goes on whenever the sweep finds a target. All of that is finite: targets have a
-/// ceiling and are dismissed once, a stop of the sweep is closed once, and each has a deadline.
+/// lies in the geofence becomes a target; so does one of which nobody saw how long it is, where the
+/// prior map's target that it could be holds another one, farther from the prior's place. A target
+/// that has no object, while nothing but what is mapped stands at its place and no incomplete
+/// object near it, is dismissed: it is not there, or the same as another. When the policy has
+/// nothing left, the geofence is swept, if so configured, and the policy goes on whenever the sweep
+/// finds a target. All of that is finite: targets have a ceiling and are dismissed once, a stop of
+/// the sweep is closed once, and each has a deadline.
 class Discovery : public Policy {
  public:
   /// Throws Error where the geofence is to be swept and is too large.
@@ -33,7 +35,7 @@ class Discovery : public Policy {
   [[nodiscard]] bool idle() const override { return policy_->idle() && !coverage_; }
 
  private:
-  /// Of a mapped object that is no target's.
+  /// Of an object that is no target's.
   struct Sighting {
     Time since;
     Eigen::Vector3d place;  ///< m, world
@@ -47,7 +49,9 @@ class Discovery : public Policy {
 
   [[nodiscard]] bool accept(const ActiveInput& input);
   void find_newcomers();
+  void watch(const objects::MapObject& object, bool complete, std::map<int, Sighting>& sightings);
   [[nodiscard]] bool stray(const objects::MapObject& object) const;
+  [[nodiscard]] bool fits_the_prior_better(const objects::MapObject& object) const;
   [[nodiscard]] bool in_reach(const objects::MapObject& object) const;
   void dismiss_absent();
   [[nodiscard]] bool may_be_incomplete(const Target& target) const;

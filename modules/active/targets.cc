@@ -90,6 +90,7 @@ TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& t
     target.id = object.id;
     target.class_id = object.class_id;
     target.extent = target.expected = prior_extent(object, config);
+    target.prior_place = target.expected_place();
     if (!is_known(object, config.known_sd_m)) continue;
     target.status = TargetStatus::visited;
     target.reason = "known well beforehand";
@@ -170,13 +171,14 @@ void TargetList::close(int index, TargetStatus status, std::string reason) {
   target.expected.pose.translation() = target.place();
 }
 
-int TargetList::add(const MapObject& object) {
+int TargetList::add(const MapObject& object, bool complete) {
   Target& target = targets_.emplace_back();
   target.id = next_id_++;
   target.class_id = object.class_id;
   target.discovered = true;
   target.expected = prior_extent(object, config_);
-  attach(size() - 1, &object, true);
+  target.prior_place = target.expected_place();
+  attach(size() - 1, &object, complete);
   ++revision_;
   return size() - 1;
 }

@@ -58,6 +58,7 @@ enum class TargetStatus {
 struct Target {
   int id = -1;  ///< of the prior map's object; of a discovered one: follows the prior's largest
   objects::ClassId class_id = 0;
+  Eigen::Vector3d prior_place = Eigen::Vector3d::Zero();  ///< world, m; or where it was discovered
   /// World: the prior's with its margin; placed where its object stood when it was last closed or
   /// put off, once there was one.
   objects::Cuboid expected;
@@ -97,8 +98,9 @@ class TargetList {
   /// Also puts off (pending) and opens again. Remembers where a mapped target's object stands.
   void close(int index, TargetStatus status, std::string reason);
 
-  /// A mapped object that is in no prior map becomes a target. \return its index, the last.
-  int add(const objects::MapObject& object);
+  /// An object that is in no prior map becomes a target: a mapped one, or one of which nobody saw
+  /// how long it is. \return its index, the last.
+  int add(const objects::MapObject& object, bool complete);
 
   /// The prior was wrong, nothing of its own is there: closed for good as visited.
   void dismiss(int index, std::string reason);

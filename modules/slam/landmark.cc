@@ -299,11 +299,6 @@ bool believed(const Landmark& landmark, const LandmarkConfig& config) {
   return ends_known && stands(landmark, config);
 }
 
-bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config) {
-  return distance <= landmark.farthest &&
-         distance >= std::min(landmark.nearest, config.surely_seen_m);
-}
-
 bool moves(const Landmark& landmark, const LandmarkConfig& config) {
   if (landmark.recent.size() < 2) return false;
   const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();

@@ -216,10 +216,6 @@ void remember(Landmark& landmark, const Observation& observation);
 /// The same, and its length known.
 [[nodiscard]] bool believed(const Landmark& landmark, const LandmarkConfig& config);
 
-/// Whether the robot at `distance` m should measure it: no farther than where it was measured, and
-/// not so near that the sensor looks over it.
-[[nodiscard]] bool in_view(const Landmark& landmark, double distance, const LandmarkConfig& config);
-
 /// Whether the footprints that were measured lately cover together more than one object: it moves.
 /// Of one that was measured for long, a single window may have an end wrong.
 /// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.

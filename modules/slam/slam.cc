@@ -4,6 +4,7 @@
 
 #include "objects/stated_length.h"
 #include "slam/landmark_estimate.h"
+#include "slam/sight.h"
 
 namespace saker::slam {
 namespace {
@@ -208,8 +209,7 @@ void Slam::expect(const std::vector<int>& measured) {
   for (std::size_t l = 0; l < landmarks_.size(); ++l) {
     if (std::find(measured.begin(), measured.end(), static_cast<int>(l)) != measured.end())
       continue;
-    const double distance = (objects::place(landmarks_[l].model) - here).norm();
-    if (in_view(landmarks_[l], distance, config_.landmarks)) ++landmarks_[l].expected;
+    if (in_view(landmarks_[l], here, landmarks_, config_.landmarks)) ++landmarks_[l].expected;
   }
 }
 

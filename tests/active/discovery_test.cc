@@ -205,6 +205,24 @@ TEST(Discovery, TargetIsKeptWhileAVehicleNearItHasEndsToBeSeen) {
   EXPECT_TRUE(flight.target(0).absent);
 }
 
+/// How many targets there are where one of the prior holds the vehicle beside it, 3 m off, and one
+/// of which nobody saw how long it is stands as far away from the prior's place.
+int targets_beside_a_taken_one(double incomplete_off) {
+  Flight flight({}, map_of({car(25, 0)}));
+  objects::ObjectMap map;
+  map.objects.push_back(vehicle(100, car(28, 0)));
+  (void)map_given(map, flight, 2);
+  map.incomplete.push_back(vehicle(101, car(25, incomplete_off)));
+  (void)map_given(map, flight, 6);
+  EXPECT_EQ(flight.target(0).object_id, 100) << "it holds what it had";
+  return static_cast<int>(flight.policy.targets().size());
+}
+
+TEST(Discovery, VehicleWithEndsToBeSeenIsATargetWhereItFitsThePriorBetterThanTheOneThatWasTaken) {
+  EXPECT_EQ(targets_beside_a_taken_one(2), 2);
+  EXPECT_EQ(targets_beside_a_taken_one(4), 1);
+}
+
 TEST(Discovery, TwoOfThePriorForOneVehicleAreOneTarget) {
   Flight flight({kPark[0]}, map_of({car(19, 6), car(21, 3.5)}));
   EXPECT_LT(flight.fly(), kLong);

@@ -24,7 +24,7 @@ struct KnownButForItsLength : Flight {
     const ActiveConfig config;
     const objects::ObjectMap map = map_of({car(20, 5)});
     TargetList targets(config.targets, {}, discovered ? objects::ObjectMap() : map);
-    if (discovered) targets.add(map.objects[0]);
+    if (discovered) targets.add(map.objects[0], true);
     return std::make_unique<PamsPolicy>(config, pams, std::move(targets), fence, oblique_model(0),
                                         motion::LimitsConfig{});
   }
@@ -152,7 +152,7 @@ struct BesideAPriorMap : Flight {
   static std::unique_ptr<Policy> policy_for(const PamsConfig& pams) {
     const ActiveConfig config;
     TargetList targets(config.targets, {}, map_of({car(40, -4)}));
-    targets.add(map_of({car(40, -4), car(20, 5)}).objects[1]);
+    targets.add(map_of({car(40, -4), car(20, 5)}).objects[1], true);
     return std::make_unique<PamsPolicy>(config, pams, std::move(targets), everywhere,
                                         oblique_model(0), motion::LimitsConfig{});
   }

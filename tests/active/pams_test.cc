@@ -248,7 +248,7 @@ TEST_P(BothPolicies, MapATargetThatIsAddedOnTheWay) {
   const std::vector<Cuboid> both = {car(20, 5), car(35, 5)};
   flight.map(both);
   flight.decide();
-  list.add(vehicle(1, both[1]));
+  list.add(vehicle(1, both[1]), true);
   EXPECT_LT(flight.fly(600), 600);
   EXPECT_EQ(flight.plan.done, 2);
 }

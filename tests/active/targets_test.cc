@@ -170,7 +170,7 @@ TEST(Targets, AddedOneIsPendingWithAnIdOfItsOwnAndItsObject) {
   prior.objects = {vehicle(7, car(0, 0)), vehicle(3, car(9, 0))};
   TargetList targets({}, kTable, prior);
   const int revision = targets.revision();
-  const int index = targets.add(vehicle(55, car(40, 0, 0.3)));
+  const int index = targets.add(vehicle(55, car(40, 0, 0.3)), true);
   EXPECT_EQ(index, 2);
   EXPECT_EQ(targets[index].id, 8);
   EXPECT_EQ(targets[index].status, TargetStatus::pending);
