@@ -46,11 +46,11 @@ PredictedView predicted(const Eigen::Vector3d& eye, const Target& target, const 
                                 target.extent.size.head<2>(), config.faces)};
 }
 
-Covariance recalibrated(const Covariance& covariance, const PamsConfig& config) {
+Covariance recalibrated(const Covariance& covariance, const RecalibrationConfig& config) {
   if (covariance.rows() < 4) return covariance;
-  const Eigen::Vector4d share(1, 1, config.recalibration.share, config.recalibration.share);
+  const Eigen::Vector4d share(1, 1, config.share, config.share);
   Eigen::Matrix4d result = share.asDiagonal() * covariance * share.asDiagonal();
-  result.diagonal().tail<2>().array() += std::pow(config.recalibration.least_m, 2);
+  result.diagonal().tail<2>().array() += std::pow(config.least_m, 2);
   return result;
 }
 

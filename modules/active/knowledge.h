@@ -59,7 +59,8 @@ class Knowledge {
 /// Of the errors of length and width to come by a covariance that is expected, by what came of such
 /// expectations (recalibration: Kuleshov, Fenner, Ermon, "Accurate Uncertainties for Deep Learning
 /// Using Calibrated Regression", ICML 2018): a share of it, and what no view takes off.
-[[nodiscard]] Covariance recalibrated(const Covariance& covariance, const PamsConfig& config);
+[[nodiscard]] Covariance recalibrated(const Covariance& covariance,
+                                      const RecalibrationConfig& config);
 
 /// [x, y, length, width] or [x, y] before the first view.
 [[nodiscard]] Covariance prior_covariance(const PamsConfig& config, bool cylinder);

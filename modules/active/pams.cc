@@ -313,7 +313,8 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   expected.target_id = target.id;
   expected.object_id = target.object_id;
   expected.gain = path_through(choice.problem, {stop}).gain;
-  expected.covariance = recalibrated(covariance.topLeftCorner(common.rows(), common.cols()), pams_);
+  expected.covariance =
+      recalibrated(covariance.topLeftCorner(common.rows(), common.cols()), pams_.recalibration);
   expected_ = expected;
 }
 

@@ -175,8 +175,7 @@ TEST(Knowledge, WhereViewsContradictEachOtherTheNextIsExpectedToTellLess) {
 }
 
 TEST(Knowledge, IsRecalibratedByAShareAndByWhatNoViewTakesOff) {
-  PamsConfig config;
-  config.recalibration = {.share = 0.5, .least_m = 0.03};
+  const RecalibrationConfig config{.share = 0.5, .least_m = 0.03};
   Covariance expected(Eigen::Vector4d(0.01, 0.02, 0.0064, 0.04).asDiagonal());
   expected(0, 2) = expected(2, 0) = 0.002;
   const Covariance errors = recalibrated(expected, config);

@@ -365,7 +365,7 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
   const Knowledge known(target, looks, model, pams);
   Eigen::Matrix4d after = known.belief().covariance();
   if (!GetParam().common_counts) after += model.common(target.class_id);
-  after = recalibrated(after, pams);
+  after = recalibrated(after, pams.recalibration);
   const Eigen::Matrix4d predicted = flight.flown.front().covariance;
   EXPECT_NEAR(0.5 * std::log(predicted.determinant() / after.determinant()), 0, 0.4);
 }
