@@ -284,9 +284,9 @@ objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& t
 bool stands(const Landmark& landmark, const LandmarkConfig& config) {
   if (landmark.moving || landmark.seen < config.confirm_observations) return false;
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
-  if (landmark.seen < config.least_seen_ratio * landmark.expected) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
-  return landmark.log_odds >= config.least_log_odds;
+  const int missed = landmark.expected - landmark.seen;
+  return landmark.log_odds - config.missed_log_odds * missed >= config.least_log_odds;
 }
 
 const SeenEnds& seen_ends(const Landmark& landmark) {

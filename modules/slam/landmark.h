@@ -16,13 +16,13 @@ namespace saker::slam {
 struct LandmarkConfig {
   int confirm_observations = 5;
   double confirm_span_s = 0.9;
-  double least_seen_ratio = 0.4;
   double surely_seen_m = 8;
   double track_s = 3;
   int still_windows = 20;
   double still_m = 0.4;
   double class_clamp = 0.05;
   double clutter_probability = 0.6;
+  double missed_log_odds = 0.5;
   double least_log_odds = 6;
   int two_windows = 3;
   double two_share = 0.2;
@@ -39,9 +39,6 @@ struct LandmarkConfig {
     v.field(
         "confirm_span_s", confirm_span_s, {0, 100}, "s",
         "between the first and the last of them: more than the overlap of neighbouring windows");
-    v.field(
-        "least_seen_ratio", least_seen_ratio, {0, 1}, "",
-        "of the windows in which the object should have been measured; below, it is not believed");
     v.field("surely_seen_m", surely_seen_m, {0, 100}, "m",
             "from this distance on a sensor in flight does not look over an object");
     v.field("track_s", track_s, {0, 60}, "s",
@@ -58,8 +55,12 @@ struct LandmarkConfig {
     v.field("clutter_probability", clutter_probability, {0.05, 0.95}, "",
             "probability of its shape in a window that speaks neither for nor against an object: "
             "segmentation wavers about bushes and walls");
+    v.field(
+        "missed_log_odds", missed_log_odds, {0, 10}, "",
+        "that a window takes off which should have measured the object and did not: a quarter of "
+        "what others bring, for they come in runs, while what is not in the map hides it");
     v.field("least_log_odds", least_log_odds, {-100, 100}, "",
-            "of an object against clutter, the windows' summed, before it is believed");
+            "of an object against clutter, all windows' summed, before it is believed");
     v.field("two_windows", two_windows, {1, 1000}, "",
             "in which two objects beside each other were measured on a vehicle's ground: it was "
             "laid across both");
@@ -146,7 +147,7 @@ struct Landmark {
   std::vector<Observation> observations;  ///< ascending chain and keyframe
   std::vector<double>
       class_log;        ///< of the fused class probability, one an entry of the class table
-  double log_odds = 0;  ///< of an object against clutter
+  double log_odds = 0;  ///< of an object against clutter, by the windows in which it was measured
   Eigen::Vector2d front =
       Eigen::Vector2d::Zero();  ///< log-odds that the front is along +x, along +y
   int seen = 0;                 ///< windows in which it was measured
