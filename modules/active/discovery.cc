@@ -26,6 +26,11 @@ double bottom_of(const objects::Model& model) {
   return objects::place(model).z() - half;
 }
 
+/// Whether there is something at its place, as far as one knows.
+bool is_there(const Target& target) {
+  return target.mapped() || target.incomplete() || (target.discovered && !target.absent);
+}
+
 }  // namespace
 
 Discovery::Discovery(const ActiveConfig& config, const objects::ClassTable& table,
@@ -102,18 +107,23 @@ bool Discovery::stray(const MapObject& object) const {
   return std::ranges::none_of(targets(), [&](const Target& target) {
     const double away = (target.place() - place).head<2>().norm();
     const bool holds_it = target.object_id == object.id || target.incomplete_id == object.id;
-    return holds_it || (target.mapped() && away < config_.discovery.same_m);
+    return holds_it || (is_there(target) && away < config_.discovery.same_m);
   });
 }
 
-/// Whether a target of the prior map would rather be this one than the one that it is.
+/// Whether it is nearest to the place of one of the prior map that took another one.
 bool Discovery::fits_the_prior_better(const MapObject& object) const {
-  return std::ranges::any_of(targets(), [&](const Target& target) {
+  return std::ranges::any_of(targets(), [&](const Target& prior) {
     const auto from_prior = [&](const Eigen::Vector3d& place) {
-      return (place - target.prior_place).head<2>().norm();
+      return (place - prior.prior_place).head<2>().norm();
     };
-    return !target.discovered && target.mapped() && target.class_id == object.class_id &&
-           from_prior(objects::place(object.model)) < from_prior(target.place());
+    const double away = from_prior(objects::place(object.model));
+    const auto is_nearer = [&](const Target& target) {
+      return target.class_id == object.class_id && is_there(target) &&
+             from_prior(target.place()) <= away;
+    };
+    return !prior.discovered && prior.mapped() && prior.class_id == object.class_id &&
+           away <= config_.targets.gate_m && std::ranges::none_of(targets(), is_nearer);
   });
 }
 

@@ -16,8 +16,8 @@ namespace saker::active {
 /// (the paper, "PAMS": the prior map only guides).
 ///
 /// A mapped object of a target class that is no target's, has been in its place for a while and
-/// lies in the geofence becomes a target; so does one of which nobody saw how long it is, where the
-/// prior map's target that it could be holds another one, farther from the prior's place. A target
+/// lies in the geofence becomes a target; so does one of which nobody saw how long it is, where a
+/// target of the prior map took another one and none is nearer to that one's prior place. A target
 /// that has no object, while nothing but what is mapped stands at its place and no incomplete
 /// object near it, is dismissed: it is not there, or the same as another. When the policy has
 /// nothing left, the geofence is swept, if so configured, and the policy goes on whenever the sweep

@@ -69,7 +69,7 @@ struct DiscoveryConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("most", most, {0, 1000}, "",
-            "mapped objects outside the prior map that become targets; 0: none do");
+            "objects beside those of the prior map's targets that become targets; 0: none do");
     v.field(
         "settle_s", settle_s, {1.5, 600}, "s",
         "for which such an object must be in the map, in its place: what drives is not by then");

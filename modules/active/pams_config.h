@@ -156,8 +156,7 @@ struct PamsConfig {
     v.field("discovered_price_per_s", discovered_price_per_s, {0, 10}, "nat/s",
             "the same for one that the prior map, if any, lacks: at 0.3 they took 37 of 98 s");
     v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
-            "the same for a prior target with a size that is not known, where nothing brings "
-            "price_per_s");
+            "the same for a prior target of unknown size where none brings price_per_s");
     v.field("at_once", at_once, {1, 8}, "",
             "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
     v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");

@@ -69,7 +69,7 @@ struct Target {
   int incomplete_id = -1;  ///< of an object there of which nobody saw how long it is; −1: none
   TargetStatus status = TargetStatus::pending;
   std::string reason;       ///< why it is visited with fewer sides, or unreachable
-  bool discovered = false;  ///< not in the prior map
+  bool discovered = false;  ///< added: the prior map has none that is it, or another took its place
   bool absent = false;      ///< dismissed: no object is its own any more
 
   [[nodiscard]] bool mapped() const { return object_id >= 0; }
@@ -98,7 +98,7 @@ class TargetList {
   /// Also puts off (pending) and opens again. Remembers where a mapped target's object stands.
   void close(int index, TargetStatus status, std::string reason);
 
-  /// An object that is in no prior map becomes a target: a mapped one, or one of which nobody saw
+  /// An object that is none of the targets' becomes one: a mapped one, or one of which nobody saw
   /// how long it is. \return its index, the last.
   int add(const objects::MapObject& object, bool complete);
 

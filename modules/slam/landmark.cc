@@ -219,7 +219,7 @@ void absorb(Landmark& landmark, const Landmark& other) {
   landmark.log_odds += other.log_odds;
   raise(landmark.model, other.model);
   landmark.seen += other.seen;
-  landmark.expected = std::max(landmark.expected + other.seen, other.expected);
+  landmark.expected = std::max({landmark.seen, landmark.expected, other.expected});
   landmark.seen_moving += other.seen_moving;
   landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);

@@ -208,7 +208,9 @@ void remember(Landmark& landmark, const Observation& observation);
 /// The most probable class of the landmark's shape.
 [[nodiscard]] objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& table);
 
-/// Seen often enough, over long enough, where it should be seen, no clutter, and standing still.
+/// Seen often enough, over long enough, and standing still, and exists: by the log-odds of windows
+/// that measured it and that missed it (Musicki, Evans, Stankovic, "Integrated Probabilistic Data
+/// Association", 1994).
 [[nodiscard]] bool stands(const Landmark& landmark, const LandmarkConfig& config);
 
 /// Of the longer side of a cuboid's estimate.

@@ -1,12 +1,20 @@
 #include "slam/sight.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
 namespace saker::slam {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Eigen::Vector3d middle(const Model& model) {
+  const auto* cylinder = std::get_if<objects::Cylinder>(&model);
+  return cylinder ? Eigen::Vector3d(cylinder->root + 0.5 * cylinder->height * cylinder->axis)
+                  : objects::place(model);
+}
 
 bool in_range(const Landmark& landmark, double distance, const LandmarkConfig& config) {
   return distance <= landmark.farthest &&
@@ -15,35 +23,38 @@ bool in_range(const Landmark& landmark, double distance, const LandmarkConfig& c
 
 }  // namespace
 
+std::vector<objects::Cuboid> believed_cuboids(std::span<const Landmark> landmarks,
+                                              const LandmarkConfig& config) {
+  std::vector<objects::Cuboid> all;
+  for (const Landmark& landmark : landmarks) {
+    const auto* cuboid = std::get_if<objects::Cuboid>(&landmark.model);
+    if (cuboid && believed(landmark, config)) all.push_back(*cuboid);
+  }
+  return all;
+}
+
 bool in_view(const Landmark& landmark, const Eigen::Vector3d& eye,
-             std::span<const Landmark> landmarks, const LandmarkConfig& config) {
-  const Eigen::Vector3d place = objects::place(landmark.model);
-  if (!in_range(landmark, (place - eye).norm(), config)) return false;
-  return std::ranges::none_of(landmarks, [&](const Landmark& other) {
-    const auto* cuboid = std::get_if<objects::Cuboid>(&other.model);
-    return cuboid && &other != &landmark && believed(other, config) && crosses(*cuboid, eye, place);
+             std::span<const objects::Cuboid> cuboids, const LandmarkConfig& config) {
+  if (!in_range(landmark, (objects::place(landmark.model) - eye).norm(), config)) return false;
+  return std::ranges::none_of(cuboids, [&](const objects::Cuboid& cuboid) {
+    return between(cuboid, eye, middle(landmark.model));
   });
 }
 
-bool crosses(const objects::Cuboid& cuboid, const Eigen::Vector3d& from,
+bool between(const objects::Cuboid& cuboid, const Eigen::Vector3d& from,
              const Eigen::Vector3d& to) {
   const SE3 T_cuboid_world = cuboid.pose.inverse();
   const Eigen::Vector3d start = T_cuboid_world * from;
   const Eigen::Vector3d way = T_cuboid_world * to - start;
-  double enters = 0, leaves = 1;  // shares of the way
+  double enters = -kInfinity, leaves = kInfinity;  // shares of the way
   for (int axis = 0; axis < 3; ++axis) {
-    const double half = 0.5 * cuboid.size[axis];
-    if (way[axis] == 0) {
-      if (std::abs(start[axis]) > half) return false;
-      continue;
-    }
-    double first = (-half - start[axis]) / way[axis];
-    double last = (half - start[axis]) / way[axis];
+    double first = (-0.5 * cuboid.size[axis] - start[axis]) / way[axis];
+    double last = (0.5 * cuboid.size[axis] - start[axis]) / way[axis];
     if (first > last) std::swap(first, last);
     enters = std::max(enters, first);
     leaves = std::min(leaves, last);
   }
-  return enters < leaves;
+  return 0 < enters && enters < leaves && leaves < 1;
 }
 
 }  // namespace saker::slam

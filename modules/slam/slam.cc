@@ -206,10 +206,11 @@ void Slam::take(Landmark& landmark, const Candidate& candidate) {
 
 void Slam::expect(const std::vector<int>& measured) {
   const Eigen::Vector3d here = trajectory_.T_world_lidar().translation();
+  const std::vector<objects::Cuboid> cuboids = believed_cuboids(landmarks_, config_.landmarks);
   for (std::size_t l = 0; l < landmarks_.size(); ++l) {
     if (std::find(measured.begin(), measured.end(), static_cast<int>(l)) != measured.end())
       continue;
-    if (in_view(landmarks_[l], here, landmarks_, config_.landmarks)) ++landmarks_[l].expected;
+    if (in_view(landmarks_[l], here, cuboids, config_.landmarks)) ++landmarks_[l].expected;
   }
 }
 

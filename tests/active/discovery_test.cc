@@ -205,22 +205,25 @@ TEST(Discovery, TargetIsKeptWhileAVehicleNearItHasEndsToBeSeen) {
   EXPECT_TRUE(flight.target(0).absent);
 }
 
-/// How many targets there are where one of the prior holds the vehicle beside it, 3 m off, and one
-/// of which nobody saw how long it is stands as far away from the prior's place.
-int targets_beside_a_taken_one(double incomplete_off) {
-  Flight flight({}, map_of({car(25, 0)}));
-  objects::ObjectMap map;
-  map.objects.push_back(vehicle(100, car(28, 0)));
-  (void)map_given(map, flight, 2);
-  map.incomplete.push_back(vehicle(101, car(25, incomplete_off)));
-  (void)map_given(map, flight, 6);
+/// How many targets there are once one of the prior took a vehicle 3 m off and was closed, and
+/// others of which nobody saw how long they are stand `off` m from its prior place.
+int targets_beside_a_taken_one(const std::vector<double>& off) {
+  Flight flight({car(28, 0)}, map_of({car(25, 0)}));
+  EXPECT_LT(flight.fly(), kLong);
+  objects::ObjectMap map = *flight.input.map;
+  for (const double y : off)
+    map.incomplete.push_back(vehicle(static_cast<int>(200 + 10 * y), car(25, y)));
+  (void)map_given(map, flight, 3);
+  EXPECT_EQ(flight.policy.targets().size(), 1U) << "they have to settle";
+  (void)map_given(map, flight, 10);
   EXPECT_EQ(flight.target(0).object_id, 100) << "it holds what it had";
   return static_cast<int>(flight.policy.targets().size());
 }
 
-TEST(Discovery, VehicleWithEndsToBeSeenIsATargetWhereItFitsThePriorBetterThanTheOneThatWasTaken) {
-  EXPECT_EQ(targets_beside_a_taken_one(2), 2);
-  EXPECT_EQ(targets_beside_a_taken_one(4), 1);
+TEST(Discovery, OneWithEndsToBeSeenIsATargetWhereItIsNearestToThePlaceOfOneThatTookAnother) {
+  EXPECT_EQ(targets_beside_a_taken_one({2}), 2);
+  EXPECT_EQ(targets_beside_a_taken_one({4}), 1) << "the other one is nearer";
+  EXPECT_EQ(targets_beside_a_taken_one({2, -2.5, 2.5}), 2) << "one of the prior, one vehicle";
 }
 
 TEST(Discovery, TwoOfThePriorForOneVehicleAreOneTarget) {
@@ -250,10 +253,7 @@ TEST(Discovery, TreeOfThePriorIsNoVehicle) {
   auto grid = free_grid(60);
   fill(grid, {25, 0, 0}, {25.5, 0.5, 4});
   flight.input.grid = shared(grid);
-  objects::Cylinder trunk;
-  trunk.root = {25.2, 0.2, 0};
-  trunk.radius = 0.2;
-  trunk.height = 4;
+  const objects::Cylinder trunk{{25.2, 0.2, 0}, Eigen::Vector3d::UnitZ(), 0.2, 4};
   objects::ObjectMap map;
   map.objects.push_back(vehicle(5, car(0, 0)));
   map.objects[0].class_id = kTrunk;

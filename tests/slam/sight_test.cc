@@ -12,20 +12,41 @@ namespace {
 
 using namespace made;
 
-TEST(Sight, IsCrossedByACuboidInTheWayAlone) {
+TEST(Sight, IsHiddenByACuboidBetweenAlone) {
   const Cuboid turned = car(10, 0, 0.6);
   const Eigen::Vector3d eye(0, 0, 1);
-  EXPECT_TRUE(crosses(turned, eye, {20, 0, 0.75}));
-  EXPECT_FALSE(crosses(turned, eye, {7, 0, 0.75})) << "it stands behind";
-  EXPECT_FALSE(crosses(turned, eye, {-20, 0, 0.75})) << "it stands on the other side";
-  EXPECT_FALSE(crosses(turned, eye, {20, 8, 0.75})) << "it stands beside";
-  EXPECT_FALSE(crosses(turned, {0, 0, 6}, {20, 0, 0.75})) << "one looks over it";
+  EXPECT_TRUE(between(turned, eye, {20, 0, 0.75}));
+  EXPECT_FALSE(between(turned, eye, {7, 0, 0.75})) << "it stands behind";
+  EXPECT_FALSE(between(turned, eye, {-20, 0, 0.75})) << "it stands on the other side";
+  EXPECT_FALSE(between(turned, eye, {20, 8, 0.75})) << "it stands beside";
+  EXPECT_FALSE(between(turned, {0, 0, 6}, {20, 0, 0.75})) << "one looks over it";
+  EXPECT_FALSE(between(turned, eye, {10, 0, 0.75})) << "of what is in it, it hides nothing";
+  EXPECT_FALSE(between(turned, {10, 0, 0.75}, {20, 0, 0.75})) << "one looks out of it";
 }
 
 TEST(Sight, AlongAFaceIsDecidedByWhichSideOfItOneLooks) {
-  const Cuboid car = made::car(10, 0, 0);
-  EXPECT_TRUE(crosses(car, {0, 0.89, 1}, {20, 0.89, 1}));
-  EXPECT_FALSE(crosses(car, {0, 0.91, 1}, {20, 0.91, 1}));
+  const Cuboid straight = car(10, 0, 0);
+  EXPECT_TRUE(between(straight, {0, 0.89, 1}, {20, 0.89, 1}));
+  EXPECT_FALSE(between(straight, {0, 0.91, 1}, {20, 0.91, 1}));
+}
+
+Landmark measured_at_20_m(const Model& model) {
+  Landmark landmark;
+  landmark.model = model;
+  landmark.nearest = landmark.farthest = 21;
+  return landmark;
+}
+
+TEST(Sight, OfAPoleBehindAVehicleOneSeesTheUpperPart) {
+  const std::vector<Cuboid> cars = {car(17, 0, 1.57)};
+  const Eigen::Vector3d eye(0, 0, 2.5);
+  EXPECT_TRUE(in_view(measured_at_20_m(trunk(20, 0)), eye, cars, {}));
+  EXPECT_FALSE(in_view(measured_at_20_m(car(20, 0, 1.57)), eye, cars, {}));
+}
+
+TEST(Sight, WhatIsNotBelievedHidesNothing) {
+  Landmark landmark = measured_at_20_m(car(10, 0, 0));
+  EXPECT_TRUE(believed_cuboids({&landmark, 1}, {}).empty());
 }
 
 /// Whether a car that was measured from aside is in the map after it was not measured from where
