@@ -38,7 +38,8 @@ Discovery::Discovery(const ActiveConfig& config, const objects::ClassTable& tabl
     : config_(core::checked(config, "active")),
       table_(table),
       fence_(fence),
-      policy_(std::move(policy)) {
+      policy_(std::move(policy)),
+      without_prior_(policy_->targets().empty()) {
   const SweepConfig& sweep = config_.discovery.sweep;
   if (swept(sweep, *policy_)) coverage_.emplace(sweep, config_.view, fence_);
 }
@@ -80,7 +81,8 @@ void Discovery::find_newcomers() {
     if (stray(object)) watch(object, true, sightings);
   }
   for (const MapObject& object : map_->incomplete) {
-    if (stray(object) && fits_the_prior_better(object)) watch(object, false, sightings);
+    const bool wanted = without_prior_ || fits_the_prior_better(object);
+    if (wanted && stray(object)) watch(object, false, sightings);
   }
   sightings_ = std::move(sightings);
 }

@@ -16,13 +16,13 @@ namespace saker::active {
 /// (the paper, "PAMS": the prior map only guides).
 ///
 /// A mapped object of a target class that is no target's, has been in its place for a while and
-/// lies in the geofence becomes a target; so does one of which nobody saw how long it is, where a
-/// target of the prior map took another one and none is nearer to that one's prior place. A target
-/// that has no object, while nothing but what is mapped stands at its place and no incomplete
-/// object near it, is dismissed: it is not there, or the same as another. When the policy has
-/// nothing left, the geofence is swept, if so configured, and the policy goes on whenever the sweep
-/// finds a target. All of that is finite: targets have a ceiling and are dismissed once, a stop of
-/// the sweep is closed once, and each has a deadline.
+/// lies in the geofence becomes a target; so does one of which nobody saw how long it is, where
+/// there is no prior map, or a target of it took another one and none is nearer to its prior place.
+/// A target that has no object, while nothing but what is mapped stands at its place and no
+/// incomplete object near it, is dismissed: it is not there, or the same as another. When the
+/// policy has nothing left, the geofence is swept, if so configured, and the policy goes on
+/// whenever the sweep finds a target. All of that is finite: targets have a ceiling and are
+/// dismissed once, a stop of the sweep is closed once, and each has a deadline.
 class Discovery : public Policy {
  public:
   /// Throws Error where the geofence is to be swept and is too large.
@@ -68,6 +68,7 @@ class Discovery : public Policy {
   objects::ClassTable table_;
   motion::Geofence fence_;
   std::unique_ptr<TargetPolicy> policy_;
+  bool without_prior_;
   std::optional<Coverage> coverage_;
   std::optional<Stop> stop_;  ///< that is flown to
 

@@ -20,24 +20,6 @@ const objects::ClassTable kTable;
 const core::Budget kBudget = core::Budget::iterations(1000);
 constexpr int kLong = 2000;  // decisions, in which every flight must have ended
 
-/// Known all over, with the cars in it, which are not turned.
-std::shared_ptr<const occupancy::OccupancyGrid> block_of(const std::vector<Cuboid>& cars) {
-  static const occupancy::OccupancyGrid kFree = free_grid(60);
-  auto grid = kFree;
-  for (const Cuboid& it : cars) {
-    const Eigen::Vector3d half(2.2, 0.9, 0.8), place = it.pose.translation();
-    const Eigen::Vector3i low = grid.index_of(place - half), high = grid.index_of(place + half);
-    for (int z = low.z(); z <= high.z(); ++z) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        for (int x = low.x(); x <= high.x(); ++x) {
-          grid.cells[grid.offset({x, y, z})] = occupancy::Cell::occupied;
-        }
-      }
-    }
-  }
-  return shared(std::move(grid));
-}
-
 /// A place with cars, some of which the prior map knows. One that is in range for three seconds
 /// gets mapped; the occupancy block knows all.
 struct Flight {
@@ -224,6 +206,15 @@ TEST(Discovery, OneWithEndsToBeSeenIsATargetWhereItIsNearestToThePlaceOfOneThatT
   EXPECT_EQ(targets_beside_a_taken_one({2}), 2);
   EXPECT_EQ(targets_beside_a_taken_one({4}), 1) << "the other one is nearer";
   EXPECT_EQ(targets_beside_a_taken_one({2, -2.5, 2.5}), 2) << "one of the prior, one vehicle";
+}
+
+TEST(Discovery, WithoutAPriorOneWithEndsToBeSeenIsATarget) {
+  Flight flight({}, {});
+  objects::ObjectMap map;
+  map.incomplete.push_back(vehicle(100, car(20, 5)));
+  (void)map_given(map, flight, 6);
+  ASSERT_EQ(flight.policy.targets().size(), 1U);
+  EXPECT_EQ(flight.target(0).incomplete_id, 100);
 }
 
 TEST(Discovery, TwoOfThePriorForOneVehicleAreOneTarget) {

@@ -63,4 +63,22 @@ inline std::shared_ptr<const occupancy::OccupancyGrid> shared(occupancy::Occupan
   return std::make_shared<const occupancy::OccupancyGrid>(std::move(grid));
 }
 
+/// Known all over, with the cars in it, which are not turned.
+inline std::shared_ptr<const occupancy::OccupancyGrid> block_of(
+    const std::vector<objects::Cuboid>& cars) {
+  occupancy::OccupancyGrid grid = free_grid(60);
+  for (const objects::Cuboid& it : cars) {
+    const Eigen::Vector3d half(2.2, 0.9, 0.8), place = it.pose.translation();
+    const Eigen::Vector3i low = grid.index_of(place - half), high = grid.index_of(place + half);
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        for (int x = low.x(); x <= high.x(); ++x) {
+          grid.cells[grid.offset({x, y, z})] = occupancy::Cell::occupied;
+        }
+      }
+    }
+  }
+  return std::make_shared<const occupancy::OccupancyGrid>(std::move(grid));
+}
+
 }  // namespace saker::active::made
