@@ -15,9 +15,9 @@ constexpr double kLongestStep = 2.0;  // s that a decision stands for: two of it
 constexpr double kStanding = 0.2;     // m/s and slower
 constexpr int kFirstStopId = -2;      // and downwards: no id of a policy's viewpoint
 
-bool swept(const SweepConfig& config, const Policy& policy) {
+bool swept(const SweepConfig& config, bool without_prior) {
   return config.when == SweepWhen::always ||
-         (config.when == SweepWhen::without_prior && policy.targets().empty());
+         (config.when == SweepWhen::without_prior && without_prior);
 }
 
 double bottom_of(const objects::Model& model) {
@@ -41,7 +41,7 @@ Discovery::Discovery(const ActiveConfig& config, const objects::ClassTable& tabl
       policy_(std::move(policy)),
       without_prior_(policy_->targets().empty()) {
   const SweepConfig& sweep = config_.discovery.sweep;
-  if (swept(sweep, *policy_)) coverage_.emplace(sweep, config_.view, fence_);
+  if (swept(sweep, without_prior_)) coverage_.emplace(sweep, config_.view, fence_);
 }
 
 ActivePlan Discovery::plan(const ActiveInput& input, const core::Budget& budget) {
@@ -116,6 +116,7 @@ bool Discovery::stray(const MapObject& object) const {
 /// Whether it is nearest to the place of one of the prior map that took another one.
 bool Discovery::fits_the_prior_better(const MapObject& object) const {
   return std::ranges::any_of(targets(), [&](const Target& prior) {
+    if (prior.discovered || !prior.mapped() || prior.class_id != object.class_id) return false;
     const auto from_prior = [&](const Eigen::Vector3d& place) {
       return (place - prior.prior_place).head<2>().norm();
     };
@@ -124,8 +125,7 @@ bool Discovery::fits_the_prior_better(const MapObject& object) const {
       return target.class_id == object.class_id && is_there(target) &&
              from_prior(target.place()) <= away;
     };
-    return !prior.discovered && prior.mapped() && prior.class_id == object.class_id &&
-           away <= config_.targets.gate_m && std::ranges::none_of(targets(), is_nearer);
+    return away <= config_.targets.gate_m && std::ranges::none_of(targets(), is_nearer);
   });
 }
 

@@ -113,7 +113,7 @@ bool open(const Footprint& footprint, int side, const Sight& sight, const GapCon
 bool parted(const Footprint& footprint, const Sight& sight, const VehicleConfig& config) {
   const GapConfig& gap = config.gap;
   if (sight.through(inner_part(footprint, gap)) >= gap.beams) return true;
-  if (footprint.size().x() < 2 * config.width_m) return false;  // both widths of two
+  if (footprint.size().x() < 2 * config.width_m) return false;  // the widths of two
   const auto looked = looked_at(footprint, sight.sensors, 1, config.noise.setback);
   for (int side = 0; side < 2; ++side) {
     if (looked[side] > config.footprint.looked_at && open(footprint, side, sight, gap)) return true;

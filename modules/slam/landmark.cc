@@ -56,7 +56,6 @@ void track(Landmark& landmark, const Model& in_world, const Candidate& candidate
 
 void count(Landmark& landmark, const Candidate& candidate) {
   ++landmark.seen;
-  ++landmark.expected;
   landmark.last_stamp = candidate.measurement->stamp;
   landmark.nearest = std::min(landmark.nearest, candidate.distance);
   landmark.farthest = std::max(landmark.farthest, candidate.distance);
@@ -218,8 +217,9 @@ void absorb(Landmark& landmark, const Landmark& other) {
   fuse_class(landmark, other.class_log);
   landmark.log_odds += other.log_odds;
   raise(landmark.model, other.model);
+  // A window that measured one of them did not miss what they are together.
+  landmark.missed = std::max({0, landmark.missed - other.seen, other.missed - landmark.seen});
   landmark.seen += other.seen;
-  landmark.expected = std::max({landmark.seen, landmark.expected, other.expected});
   landmark.seen_moving += other.seen_moving;
   landmark.moving = landmark.moving || other.moving;
   landmark.first_stamp = std::min(landmark.first_stamp, other.first_stamp);
@@ -285,8 +285,8 @@ bool stands(const Landmark& landmark, const LandmarkConfig& config) {
   if (landmark.moving || landmark.seen < config.confirm_observations) return false;
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
   if (2 * landmark.seen_moving > landmark.seen) return false;
-  const int missed = landmark.expected - landmark.seen;
-  return landmark.log_odds - config.missed_log_odds * missed >= config.least_log_odds;
+  const double log_odds = landmark.log_odds - config.missed_log_odds * landmark.missed;
+  return log_odds >= config.least_log_odds;
 }
 
 const SeenEnds& seen_ends(const Landmark& landmark) {

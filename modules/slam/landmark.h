@@ -151,7 +151,7 @@ struct Landmark {
   Eigen::Vector2d front =
       Eigen::Vector2d::Zero();  ///< log-odds that the front is along +x, along +y
   int seen = 0;                 ///< windows in which it was measured
-  int expected = 0;             ///< windows in which it should have been, `seen` included
+  int missed = 0;               ///< windows in which it should have been and was not
   int seen_as_one = 0,
       seen_as_two = 0;            ///< windows with one, with two beside each other, on its ground
   int seen_moving = 0;            ///< windows in which what was measured there moved

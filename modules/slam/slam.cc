@@ -210,7 +210,7 @@ void Slam::expect(const std::vector<int>& measured) {
   for (std::size_t l = 0; l < landmarks_.size(); ++l) {
     if (std::find(measured.begin(), measured.end(), static_cast<int>(l)) != measured.end())
       continue;
-    if (in_view(landmarks_[l], here, cuboids, config_.landmarks)) ++landmarks_[l].expected;
+    if (in_view(landmarks_[l], here, cuboids, config_.landmarks)) ++landmarks_[l].missed;
   }
 }
 

@@ -78,7 +78,7 @@ inline std::shared_ptr<const occupancy::OccupancyGrid> block_of(
       }
     }
   }
-  return std::make_shared<const occupancy::OccupancyGrid>(std::move(grid));
+  return shared(std::move(grid));
 }
 
 }  // namespace saker::active::made

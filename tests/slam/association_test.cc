@@ -107,7 +107,7 @@ TEST(Duplicates, BoxAboutPartsTellsNothingOfAVehicleWhoseEndsWereSeen) {
                                      landmark_at(1, car(0, 0, 0), kVehicle, 1)};
   landmarks[0].seen = 100;
   Landmark& whole = landmarks[1];
-  whole.seen = whole.expected = 10;
+  whole.seen = 10;
   whole.last_stamp += from_seconds(5);
   whole.log_odds = 20;
   whole.ends[0].next.setConstant(0.1);

@@ -123,9 +123,9 @@ TEST(Landmark, IsNotBelievedWhenOftenLookedForInVainOrMoving) {
   Feed feed;
   for (int i = 0; i < 4; ++i) feed(car(5, 0, 0), kVehicle);
   Landmark landmark = feed(car(5, 0, 0), kVehicle);
-  landmark.expected = 40;
+  landmark.missed = 35;
   EXPECT_FALSE(believed(landmark, kConfig));
-  landmark.expected = landmark.seen;
+  landmark.missed = 0;
   landmark.seen_moving = 4;
   EXPECT_FALSE(believed(landmark, kConfig));
 }
