@@ -46,14 +46,6 @@ PredictedView predicted(const Eigen::Vector3d& eye, const Target& target, const 
                                 target.extent.size.head<2>(), config.faces)};
 }
 
-Covariance recalibrated(const Covariance& covariance, const RecalibrationConfig& config) {
-  if (covariance.rows() < 4) return covariance;
-  const Eigen::Vector4d share(1, 1, config.share, config.share);
-  Eigen::Matrix4d result = share.asDiagonal() * covariance * share.asDiagonal();
-  result.diagonal().tail<2>().array() += std::pow(config.least_m, 2);
-  return result;
-}
-
 Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
   const double place = config.prior_place_m * config.prior_place_m;
   const double length = config.prior_length_m * config.prior_length_m;

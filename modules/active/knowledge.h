@@ -56,12 +56,6 @@ class Knowledge {
 [[nodiscard]] Belief map_belief(const Target& target, const Looks& held, const Looks& until,
                                 const ViewModel& model, const PamsConfig& config);
 
-/// Of the errors of length and width to come by a covariance that is expected, by what came of such
-/// expectations (recalibration: Kuleshov, Fenner, Ermon, "Accurate Uncertainties for Deep Learning
-/// Using Calibrated Regression", ICML 2018): a share of it, and what no view takes off.
-[[nodiscard]] Covariance recalibrated(const Covariance& covariance,
-                                      const RecalibrationConfig& config);
-
 /// [x, y, length, width] or [x, y] before the first view.
 [[nodiscard]] Covariance prior_covariance(const PamsConfig& config, bool cylinder);
 

@@ -313,8 +313,7 @@ void PamsPolicy::expect(const Choice& choice, const Path& path) {
   expected.target_id = target.id;
   expected.object_id = target.object_id;
   expected.gain = path_through(choice.problem, {stop}).gain;
-  expected.covariance =
-      recalibrated(covariance.topLeftCorner(common.rows(), common.cols()), pams_.recalibration);
+  expected.covariance = covariance.topLeftCorner(common.rows(), common.cols());
   expected_ = expected;
 }
 

@@ -36,21 +36,6 @@ struct LookedFromConfig {
   }
 };
 
-/// Errors of length and width against what was expected of them, by predictions of 60 missions of
-/// `saker`.
-struct RecalibrationConfig {
-  double share = 1;
-  double least_m = 0;
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v.field("share", share, {0.01, 10}, "",
-            "of the expected sd, at which errors came out: windows that show no end tell, too");
-    v.field("least_m", least_m, {0, 1}, "m",
-            "sd beside it: what single windows take for a part of the vehicle");
-  }
-};
-
 /// One method, PAMS, with two sets of defaults: `paper` as the paper has it, `saker` beyond it.
 struct PamsConfig {
   Sampling sampling = Sampling::centroids;
@@ -66,7 +51,6 @@ struct PamsConfig {
   FacesConfig faces;
   bool common_counts = false;
   bool map_counts = false;
-  RecalibrationConfig recalibration;
   double enough_entropy = -10;
   double most_size_sd_m = 10;
   double reopen_share = 1.3;
@@ -98,12 +82,11 @@ struct PamsConfig {
     config.prior_width_m = 0.12;
     config.faces.hidden_end_m = 0.08;  // lengths with one were off by 0.06 m, widths by 0.04 m
     config.faces.hidden_side_m = 0.08;
-    config.enough_entropy = -11;
-    config.most_size_sd_m = 0.06;  // errors go with what the map states
+    config.enough_entropy = -11.5;
+    config.most_size_sd_m = 0.05;  // errors go with what the map states
     config.common_counts = true;
     config.map_counts = true;
-    config.recalibration = {.share = 0.7, .least_m = 0.028};
-    config.price_per_s = 0.3;
+    config.price_per_s = 0.2;
     config.discovered_price_per_s = 1;
     config.least_price_per_s = 0.2;
     config.at_once = 4;
@@ -140,7 +123,6 @@ struct PamsConfig {
     v.field("map_counts", map_counts, "",
             "whether a target is known no better than the map has it: where one view contradicts "
             "others, it is looked at further");
-    v.group("recalibration", recalibration, "of what is expected of length and width");
     v.field("enough_entropy", enough_entropy, {-40, 10}, "nat",
             "½ ln det of the covariance in m² at which a target is known well enough");
     v.field("most_size_sd_m", most_size_sd_m, {0.01, 10}, "m",

@@ -174,19 +174,6 @@ TEST(Knowledge, WhereViewsContradictEachOtherTheNextIsExpectedToTellLess) {
   EXPECT_TRUE(now.expected(map, known(looks)).covariance().isApprox(9 * then, 1e-6));
 }
 
-TEST(Knowledge, IsRecalibratedByAShareAndByWhatNoViewTakesOff) {
-  const RecalibrationConfig config{.share = 0.5, .least_m = 0.03};
-  Covariance expected(Eigen::Vector4d(0.01, 0.02, 0.0064, 0.04).asDiagonal());
-  expected(0, 2) = expected(2, 0) = 0.002;
-  const Covariance errors = recalibrated(expected, config);
-  EXPECT_NEAR(std::sqrt(errors(2, 2)), 0.05, 1e-12);
-  EXPECT_NEAR(errors(3, 3), 0.01 + 0.0009, 1e-12);
-  EXPECT_NEAR(errors(0, 0), 0.01, 1e-12);
-  EXPECT_NEAR(errors(0, 2), 0.001, 1e-12);
-  const Covariance root(Eigen::Vector2d(0.01, 0.02).asDiagonal());
-  EXPECT_EQ(Eigen::MatrixXd(recalibrated(root, config)), Eigen::MatrixXd(root));
-}
-
 TEST(Knowledge, HoldsWhatIsCommonWhereItCounts) {
   PamsConfig config = config_with();
   config.common_counts = true;

@@ -185,7 +185,6 @@ TEST_P(BothPolicies, PredictEachViewpointBeforeItIsFlownAndTheRecursionComesTrue
   PamsConfig config = never_enough(GetParam());
   config.drift_counts = false;
   config.price_per_s = 0;
-  config.recalibration = {};
   PamsFlight flight(config, {car(20, 0)});
   flight.fly(600);
   ASSERT_GE(flight.flown.size(), 2U);
@@ -365,7 +364,6 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
   const Knowledge known(target, looks, model, pams);
   Eigen::Matrix4d after = known.belief().covariance();
   if (!GetParam().common_counts) after += model.common(target.class_id);
-  after = recalibrated(after, pams.recalibration);
   const Eigen::Matrix4d predicted = flight.flown.front().covariance;
   EXPECT_NEAR(0.5 * std::log(predicted.determinant() / after.determinant()), 0, 0.4);
 }

@@ -19,7 +19,7 @@ std::vector<Outcome> outcomes(int count, double factor) {
 }
 
 TEST(Calibration, OfAnHonestPredictionHasARatioOfOneInEveryBin) {
-  const auto bins = calibration(outcomes(4000, 1), 400);
+  const auto bins = calibration(outcomes(4000, 1), 400, 10);
   ASSERT_EQ(bins.size(), 10U);
   for (const CalibrationBin& bin : bins) EXPECT_NEAR(bin.ratio(), 1, 0.12);
 }
@@ -31,8 +31,8 @@ TEST(Calibration, OfAPredictionTwiceTooGoodIsTwo) {
 }
 
 TEST(Calibration, HasAtLeastFiftyOutcomesInEachBinAndLosesNone) {
-  const auto bins = calibration(outcomes(379, 1));
-  ASSERT_EQ(bins.size(), 7U);
+  const auto bins = calibration(outcomes(239, 1));
+  ASSERT_EQ(bins.size(), 4U);
   int sum = 0;
   for (std::size_t i = 0; i < bins.size(); ++i) {
     EXPECT_GE(bins[i].outcomes, 50);
@@ -41,7 +41,13 @@ TEST(Calibration, HasAtLeastFiftyOutcomesInEachBinAndLosesNone) {
     }
     sum += bins[i].outcomes;
   }
-  EXPECT_EQ(sum, 379);
+  EXPECT_EQ(sum, 239);
+}
+
+TEST(Calibration, HasFiveBinsHoweverManyOutcomesThereAre) {
+  const auto bins = calibration(outcomes(700, 1));
+  ASSERT_EQ(bins.size(), 5U);
+  for (const CalibrationBin& bin : bins) EXPECT_EQ(bin.outcomes, 140);
 }
 
 TEST(Calibration, OfTooFewIsOneBinAndOfNoneNone) {

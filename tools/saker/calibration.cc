@@ -25,15 +25,15 @@ CalibrationBin bin_of(std::span<const Outcome> outcomes) {
 
 }  // namespace
 
-std::vector<CalibrationBin> calibration(std::span<const Outcome> outcomes, int least) {
+std::vector<CalibrationBin> calibration(std::span<const Outcome> outcomes, int least, int most) {
   std::vector<Outcome> sorted;
   std::ranges::copy_if(outcomes, std::back_inserter(sorted), [](const Outcome& o) {
     return std::isfinite(o.predicted_sd) && std::isfinite(o.error);
   });
   std::ranges::stable_sort(sorted, {}, &Outcome::predicted_sd);
   if (sorted.empty()) return {};
-  const std::size_t count =
-      std::max<std::size_t>(sorted.size() / static_cast<std::size_t>(least), 1);
+  const auto count =
+      static_cast<std::size_t>(std::clamp(static_cast<int>(sorted.size()) / least, 1, most));
   std::vector<CalibrationBin> bins;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = i * sorted.size() / count, to = (i + 1) * sorted.size() / count;
