@@ -49,10 +49,12 @@ inline occupancy::OccupancyGrid free_grid(double reach = 30, double resolution =
 /// Fills the cells with their centres in the upright box.
 inline void fill(occupancy::OccupancyGrid& grid, const Eigen::Vector3d& low,
                  const Eigen::Vector3d& high, occupancy::Cell value = occupancy::Cell::occupied) {
+  const Eigen::Vector3i from = grid.index_of(low).cwiseMax(0);
+  const Eigen::Vector3i to = grid.index_of(high).cwiseMin(grid.size - Eigen::Vector3i::Ones());
   const Eigen::AlignedBox3d box(low, high);
-  for (int z = 0; z < grid.size.z(); ++z) {
-    for (int y = 0; y < grid.size.y(); ++y) {
-      for (int x = 0; x < grid.size.x(); ++x) {
+  for (int z = from.z(); z <= to.z(); ++z) {
+    for (int y = from.y(); y <= to.y(); ++y) {
+      for (int x = from.x(); x <= to.x(); ++x) {
         if (box.contains(grid.centre_of({x, y, z}))) grid.cells[grid.offset({x, y, z})] = value;
       }
     }
@@ -68,15 +70,8 @@ inline std::shared_ptr<const occupancy::OccupancyGrid> block_of(
     const std::vector<objects::Cuboid>& cars) {
   occupancy::OccupancyGrid grid = free_grid(60);
   for (const objects::Cuboid& it : cars) {
-    const Eigen::Vector3d half(2.2, 0.9, 0.8), place = it.pose.translation();
-    const Eigen::Vector3i low = grid.index_of(place - half), high = grid.index_of(place + half);
-    for (int z = low.z(); z <= high.z(); ++z) {
-      for (int y = low.y(); y <= high.y(); ++y) {
-        for (int x = low.x(); x <= high.x(); ++x) {
-          grid.cells[grid.offset({x, y, z})] = occupancy::Cell::occupied;
-        }
-      }
-    }
+    const Eigen::Vector3d half = 0.5 * it.size, place = it.pose.translation();
+    fill(grid, place - half, place + half);
   }
   return shared(std::move(grid));
 }

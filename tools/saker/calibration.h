@@ -28,7 +28,7 @@ struct CalibrationBin {
 /// number, by rising sd. One of fewer outcomes where there are not even so many; none of none. What
 /// is not finite is left out. Errors have tails: of 50 outcomes a ratio that should be 1 is within
 /// 0.8 to 1.25 three times out of four, of 120 eleven times out of twelve (by drawing from 980
-/// predictions of 172 missions), so that what is flown beyond makes bins larger, not more.
+/// predictions of 232 missions), so that what is flown beyond makes bins larger, not more.
 [[nodiscard]] std::vector<CalibrationBin> calibration(std::span<const Outcome> outcomes,
                                                       int least = 50, int most = 5);
 
