@@ -133,7 +133,13 @@ bool Discovery::fits_the_prior_better(const MapObject& object) const {
 bool Discovery::in_reach(const MapObject& object) const {
   Eigen::Vector3d above = objects::place(object.model);
   above.z() = bottom_of(object.model) + config_.viewpoints.height_m;
-  return fence_.contains(above);
+  return fence_.contains(in_fence(above));
+}
+
+/// Not below its floor.
+Eigen::Vector3d Discovery::in_fence(const Eigen::Vector3d& place) const {
+  const InGeofence in_geofence = [&](const Eigen::Vector3d& p) { return fence_.contains(p); };
+  return raised_into(in_geofence, place, config_.view.farthest_m);
 }
 
 /// Also of those that were visited in vain: it says why.
@@ -237,7 +243,8 @@ Viewpoint Discovery::viewpoint_at(std::size_t number) const {
   const Eigen::Vector2d way = place - body_.head<2>();
   Viewpoint viewpoint;
   viewpoint.id = kFirstStopId - static_cast<int>(number);
-  viewpoint.position << place, ground_height(map_.get(), place) + config_.viewpoints.height_m;
+  const double height = ground_height(map_.get(), place) + config_.viewpoints.height_m;
+  viewpoint.position = in_fence({place.x(), place.y(), height});
   viewpoint.yaw = std::atan2(way.y(), way.x());
   viewpoint.bearing = viewpoint.yaw;
   return viewpoint;

@@ -53,6 +53,7 @@ class Discovery : public Policy {
   [[nodiscard]] bool stray(const objects::MapObject& object) const;
   [[nodiscard]] bool fits_the_prior_better(const objects::MapObject& object) const;
   [[nodiscard]] bool in_reach(const objects::MapObject& object) const;
+  [[nodiscard]] Eigen::Vector3d in_fence(const Eigen::Vector3d& place) const;
   void dismiss_absent();
   [[nodiscard]] bool may_be_incomplete(const Target& target) const;
   [[nodiscard]] bool nothing_else_at(const Eigen::Vector3d& place) const;

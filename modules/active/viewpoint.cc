@@ -10,6 +10,8 @@ using objects::Cuboid;
 using std::numbers::pi;
 
 constexpr double kRingSearch = 0.25;  // m, between distances that are tried for the first ring
+constexpr double kRaise = 0.25;       // m, between heights that are tried over a place
+constexpr double kOverFloor = 0.5;    // m: safety holds the vehicle where it dips out of the fence
 constexpr double kRayHeight = 0.6;    // of the target: clear of the ground's cells
 constexpr double kRayEdge = 0.9;      // of half the size: on the target, not beside it
 
@@ -68,6 +70,16 @@ double first_ring(const Cuboid& target, double bearing, double height,
 
 }  // namespace
 
+Eigen::Vector3d raised_into(const InGeofence& in_geofence, const Eigen::Vector3d& place,
+                            double most_m) {
+  if (in_geofence(place)) return place;
+  for (double raise = kRaise; raise + kOverFloor <= most_m; raise += kRaise) {
+    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+    if (in_geofence(place + raise * up)) return place + (raise + kOverFloor) * up;
+  }
+  return place;
+}
+
 bool Surroundings::blocked(const Eigen::Vector3d& p_world, double radius) const {
   if (!grid) return false;
   const Eigen::Vector3d p = T_odom_world * p_world;
@@ -119,11 +131,15 @@ std::vector<Candidate> sample_viewpoints(const Cuboid& target, int first_id,
   std::vector<Candidate> candidates;
   for (int direction = 0; direction < config.bearings; ++direction) {
     const double bearing = std::remainder(2 * pi * direction / config.bearings, 2 * pi);
-    const double nearest = first_ring(target, bearing, config.height_m, view);
+    const double usual = first_ring(target, bearing, config.height_m, view);
+    const Viewpoint low = viewpoint_at(target, bearing, usual, config.height_m, view);
+    const Eigen::Vector3d raised = raised_into(in_geofence, low.position, view.farthest_m);
+    const double height = config.height_m + (raised - low.position).z();
+    const double nearest = first_ring(target, bearing, height, view);
     for (int ring = 0; ring < config.rings; ++ring) {
       Candidate& candidate = candidates.emplace_back();
       candidate.viewpoint =
-          viewpoint_at(target, bearing, nearest + ring * config.ring_step_m, config.height_m, view);
+          viewpoint_at(target, bearing, nearest + ring * config.ring_step_m, height, view);
       candidate.viewpoint.id = first_id + direction * config.rings + ring;
       candidate.known_free = surroundings.at(candidate.viewpoint.position) == occupancy::Cell::free;
       candidate.refusal =

@@ -18,6 +18,11 @@ namespace saker::active {
 /// Whether the vehicle may be there; `world`.
 using InGeofence = std::function<bool(const Eigen::Vector3d&)>;
 
+/// The place, or one over it, clear of the fence's floor, where it lies below that (where the
+/// ground falls away from the take-off); as it is where it had to be raised by more than `most_m`.
+[[nodiscard]] Eigen::Vector3d raised_into(const InGeofence& in_geofence,
+                                          const Eigen::Vector3d& place, double most_m);
+
 /// An occupancy block seen from `world`. Without a block everything is unknown.
 struct Surroundings {
   const occupancy::OccupancyGrid* grid = nullptr;
@@ -104,7 +109,8 @@ struct ViewpointConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v.field("height_m", height_m, {0.3, 50}, "m",
-            "of the body above the ground under the target: over vehicles, under most crowns");
+            "of the body above the ground under the target: over vehicles, under most crowns; "
+            "higher where the geofence asks for it");
     v.field("bearings", bearings, {4, 72}, "", "directions around the target");
     v.field("rings", rings, {1, 10}, "", "distances, from the nearest that has it all in view");
     v.field("ring_step_m", ring_step_m, {0.25, 10}, "m", "between them");

@@ -106,6 +106,31 @@ TEST(Candidates, OfTheFirstRingAreTheNearestThatHaveTheTargetInView) {
   }
 }
 
+TEST(Candidates, RiseOverTheFloorOfTheGeofence) {
+  const InGeofence high = [](const Eigen::Vector3d& p) { return p.z() > 3.6 && p.y() > 0.1; };
+  const objects::Cuboid target = car(0, 0);
+  const auto candidates = sample_viewpoints(target, 0, kConfig, kView, {}, high);
+  for (std::size_t i = 0; i < candidates.size(); i += kConfig.rings) {
+    const Candidate& it = candidates[i];
+    const Eigen::Vector3d& eye = it.viewpoint.position;
+    if (eye.y() < 0.1) {
+      EXPECT_EQ(it.refusal, Refusal::outside_geofence);
+      continue;
+    }
+    EXPECT_EQ(it.refusal, Refusal::none);
+    EXPECT_GE(eye.z(), 4.1);
+    EXPECT_LE(eye.z(), 4.4);
+    EXPECT_TRUE(in_field_of_view(eye, it.viewpoint.yaw, target, kView, kView.margin_deg));
+  }
+}
+
+TEST(Candidates, StayAtTheirHeightWhereTheFenceHoldsIt) {
+  const InGeofence low = [](const Eigen::Vector3d& p) { return p.z() < 3.2; };
+  for (const Candidate& it : sample_viewpoints(car(0, 0), 0, kConfig, kView, {}, low)) {
+    EXPECT_NEAR(it.viewpoint.position.z(), kConfig.height_m, 1e-9);
+  }
+}
+
 TEST(Candidates, EachHasTheReasonOfItsRefusal) {
   auto grid = free_grid();
   fill(grid, {4, -10, 0}, {4.5, 10, 6});
