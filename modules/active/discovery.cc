@@ -15,9 +15,9 @@ constexpr double kLongestStep = 2.0;  // s that a decision stands for: two of it
 constexpr double kStanding = 0.2;     // m/s and slower
 constexpr int kFirstStopId = -2;      // and downwards: no id of a policy's viewpoint
 
-bool swept(const SweepConfig& config, bool without_prior) {
+bool swept(const SweepConfig& config, const Policy& policy) {
   return config.when == SweepWhen::always ||
-         (config.when == SweepWhen::without_prior && without_prior);
+         (config.when == SweepWhen::without_prior && without_prior(policy.targets()));
 }
 
 double bottom_of(const objects::Model& model) {
@@ -38,10 +38,9 @@ Discovery::Discovery(const ActiveConfig& config, const objects::ClassTable& tabl
     : config_(core::checked(config, "active")),
       table_(table),
       fence_(fence),
-      policy_(std::move(policy)),
-      without_prior_(policy_->targets().empty()) {
+      policy_(std::move(policy)) {
   const SweepConfig& sweep = config_.discovery.sweep;
-  if (swept(sweep, without_prior_)) coverage_.emplace(sweep, config_.view, fence_);
+  if (swept(sweep, *policy_)) coverage_.emplace(sweep, config_.view, fence_);
 }
 
 ActivePlan Discovery::plan(const ActiveInput& input, const core::Budget& budget) {
@@ -81,7 +80,7 @@ void Discovery::find_newcomers() {
     if (stray(object)) watch(object, true, sightings);
   }
   for (const MapObject& object : map_->incomplete) {
-    const bool wanted = without_prior_ || fits_the_prior_better(object);
+    const bool wanted = without_prior(targets()) || fits_the_prior_better(object);
     if (wanted && stray(object)) watch(object, false, sightings);
   }
   sightings_ = std::move(sightings);

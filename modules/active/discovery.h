@@ -69,7 +69,6 @@ class Discovery : public Policy {
   objects::ClassTable table_;
   motion::Geofence fence_;
   std::unique_ptr<TargetPolicy> policy_;
-  bool without_prior_;  ///< from the beginning: the prior map has no target
   std::optional<Coverage> coverage_;
   std::optional<Stop> stop_;  ///< that is flown to
 

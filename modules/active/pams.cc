@@ -163,12 +163,8 @@ bool PamsPolicy::choose_among(int index, const std::vector<bool>& region, Sampli
       refusal = sampled[i] ? Refusal::none : Refusal::region;
     }
   }
-  Choice choice = choice_among(index, samples);
-  std::optional<Path> path = best_path(choice);
-  if (!path && !targets_[index].discovered && !size_is_known(index, known_of(index), 1)) {
-    choice.problem.price_per_s = pams_.least_price_per_s;
-    path = best_path(choice);
-  }
+  const Choice choice = choice_among(index, samples);
+  const std::optional<Path> path = best_path(choice);
   if (!path) return false;
   const Viewpoint& next = choice.samples[path->stops.front()].viewpoint;
   if (flies_to(index) && next.id == goal_->viewpoint.id) return true;
@@ -276,9 +272,7 @@ void PamsPolicy::add_ways(Choice& choice) const {
 
 /// What a second of flight to a target must bring, nat/s.
 double PamsPolicy::price_of(int index) const {
-  const bool has_prior =
-      std::ranges::any_of(targets_.all(), [](const Target& target) { return !target.discovered; });
-  const bool beside = has_prior && targets_[index].discovered;
+  const bool beside = targets_[index].discovered && !without_prior(targets_.all());
   return beside ? pams_.discovered_price_per_s : pams_.price_per_s;
 }
 

@@ -58,7 +58,6 @@ struct PamsConfig {
   double least_gain = 0.05;
   double price_per_s = 0;
   double discovered_price_per_s = 0;
-  double least_price_per_s = 0;
   int at_once = 1;
   bool replan = false;
   double switch_gain = 0.3;
@@ -88,7 +87,6 @@ struct PamsConfig {
     config.map_counts = true;
     config.price_per_s = 0.2;
     config.discovered_price_per_s = 1;
-    config.least_price_per_s = 0.2;
     config.at_once = 4;
     config.replan = true;
     config.drift_counts = true;
@@ -137,8 +135,6 @@ struct PamsConfig {
             "what a second of flight must bring beside it: the more, the shorter the mission");
     v.field("discovered_price_per_s", discovered_price_per_s, {0, 10}, "nat/s",
             "the same for one that the prior map, if any, lacks: at 0.3 they took 37 of 98 s");
-    v.field("least_price_per_s", least_price_per_s, {0, 10}, "nat/s",
-            "the same for a prior target of unknown size where none brings price_per_s");
     v.field("at_once", at_once, {1, 8}, "",
             "targets that a viewpoint is weighed for: the tour's current one and its neighbours");
     v.field("replan", replan, "", "whether a better viewpoint replaces the one that is flown to");

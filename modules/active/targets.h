@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,11 @@ struct Target {
   [[nodiscard]] Eigen::Vector3d place() const { return extent.pose.translation(); }
   [[nodiscard]] Eigen::Vector3d expected_place() const { return expected.pose.translation(); }
 };
+
+/// Whether the prior map has no target: all were discovered.
+[[nodiscard]] inline bool without_prior(const std::vector<Target>& targets) {
+  return std::ranges::all_of(targets, &Target::discovered);
+}
 
 /// The targets in the order of their ids: the prior's, then those that were added. Objects of other
 /// classes are passed over; what the prior map knows well (its covariance says so) is closed from

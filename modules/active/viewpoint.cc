@@ -131,11 +131,14 @@ std::vector<Candidate> sample_viewpoints(const Cuboid& target, int first_id,
   std::vector<Candidate> candidates;
   for (int direction = 0; direction < config.bearings; ++direction) {
     const double bearing = std::remainder(2 * pi * direction / config.bearings, 2 * pi);
-    const double usual = first_ring(target, bearing, config.height_m, view);
-    const Viewpoint low = viewpoint_at(target, bearing, usual, config.height_m, view);
-    const Eigen::Vector3d raised = raised_into(in_geofence, low.position, view.farthest_m);
-    const double height = config.height_m + (raised - low.position).z();
-    const double nearest = first_ring(target, bearing, height, view);
+    double height = config.height_m;
+    double nearest = first_ring(target, bearing, height, view);
+    const Eigen::Vector3d low = viewpoint_at(target, bearing, nearest, height, view).position;
+    if (const double raise = (raised_into(in_geofence, low, view.farthest_m) - low).z();
+        raise > 0) {
+      height += raise;
+      nearest = first_ring(target, bearing, height, view);
+    }
     for (int ring = 0; ring < config.rings; ++ring) {
       Candidate& candidate = candidates.emplace_back();
       candidate.viewpoint =

@@ -41,7 +41,7 @@ struct KnownButForItsLength : Flight {
 PamsConfig easily_enough() {
   PamsConfig config = PamsConfig::saker();
   config.enough_entropy = -8;  // a length of 0.5 m with the others at 0.01 m
-  config.least_price_per_s = 0.01;
+  config.price_per_s = 0.01;
   return config;
 }
 
@@ -127,17 +127,18 @@ TEST(PamsSize, WhereTheRegionsCentroidsCannotBeReachedTheLatticeShowsTheLength) 
   EXPECT_FALSE(goals(true, elsewhere).empty());
 }
 
-TEST(PamsSize, ADiscoveredTargetIsFlownToAtTheFullPriceAlone) {
-  const auto goals = [](bool discovered) {
+TEST(PamsSize, ADiscoveredTargetWithoutAPriorMapHasThePriceOfAll) {
+  const auto goals = [](double price_per_s) {
     PamsConfig config = easily_enough();
-    config.price_per_s = 10;  // nothing brings that much
-    KnownButForItsLength flight(config, everywhere, discovered);
+    config.price_per_s = price_per_s;
+    config.discovered_price_per_s = 10;  // nothing brings that much
+    KnownButForItsLength flight(config, everywhere, true);
     flight.know_length_to(0.5);
     EXPECT_LT(flight.fly(600), 600);
     return flight.goals.size();
   };
-  EXPECT_GT(goals(false), 0U);
-  EXPECT_EQ(goals(true), 0U);
+  EXPECT_GT(goals(0.01), 0U);
+  EXPECT_EQ(goals(10), 0U);
 }
 
 /// A vehicle on the prior map that is well known, and one beside it whose length is not.
