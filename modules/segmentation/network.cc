@@ -1,6 +1,7 @@
 #include "segmentation/network.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
@@ -10,10 +11,10 @@
 namespace saker::segmentation {
 namespace {
 
-constexpr int kWrap = 16;        // columns at each side
-constexpr int kRowMultiple = 8;  // three strides of 2
-constexpr int kColumnMultiple = 16;
-constexpr int kTrialRows = 8, kTrialColumns = 32;  // smallest image, to see what the network gives
+constexpr int kWrap = 16;         // columns at each side
+constexpr int kRowMultiple = 16;  // four strides of 2
+constexpr int kColumnMultiple = 32;
+constexpr int kTrialRows = 16, kTrialColumns = 32;  // smallest image, to see what the network gives
 
 int filled(int n, int multiple) { return (n + multiple - 1) / multiple * multiple; }
 
@@ -22,8 +23,9 @@ int filled(int n, int multiple) { return (n + multiple - 1) / multiple * multipl
 struct Network::Memory {
   cv::dnn::Net net;
   cv::Mat input, output;
-  Eigen::ArrayXXf scratch;
+  Eigen::ArrayXXf scratch, merged;
   int channels = 0, classes = 0;
+  std::vector<int> class_of;  ///< of each output
 };
 
 Network::~Network() = default;
@@ -31,10 +33,12 @@ Network::Network(Network&&) noexcept = default;
 Network& Network::operator=(Network&&) noexcept = default;
 
 Network::Network(const std::string& weights, const std::filesystem::path& file, int channels,
-                 int classes)
+                 std::vector<int> class_of)
     : memory_(std::make_unique<Memory>()) {
   memory_->channels = channels;
-  memory_->classes = classes;
+  memory_->class_of = std::move(class_of);
+  memory_->classes = 1 + *std::max_element(memory_->class_of.begin(), memory_->class_of.end());
+  const auto outputs = static_cast<int>(memory_->class_of.size());
   cv::setNumThreads(1);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // Error says it
   try {
@@ -48,9 +52,9 @@ Network::Network(const std::string& weights, const std::filesystem::path& file, 
                 " input channels");
   }
   const cv::Mat& out = memory_->output;
-  if (out.dims != 4 || out.size[1] != 2 * classes || out.size[2] != kTrialRows ||
+  if (out.dims != 4 || out.size[1] != 2 * outputs || out.size[2] != kTrialRows ||
       out.size[3] != memory_->input.size[3] / 2) {
-    throw Error(file.string() + ": the network's output does not fit " + std::to_string(classes) +
+    throw Error(file.string() + ": the network's output does not fit " + std::to_string(outputs) +
                 " classes");
   }
 }
@@ -90,16 +94,20 @@ const PixelProbabilities& Network::run(const std::vector<float>& features, int r
 void Network::take_row(int row, int parity) {
   const cv::Mat& out = memory_->output;
   const int classes = memory_->classes, count = (result_.columns + 1 - parity) / 2;
+  const auto outputs = static_cast<int>(memory_->class_of.size());
   const std::ptrdiff_t half = out.size[3], stride = half * out.size[2];
-  const float* first = out.ptr<float>() + parity * classes * stride + row * half + kWrap / 2;
+  const float* first = out.ptr<float>() + parity * outputs * stride + row * half + kWrap / 2;
   const Eigen::Map<const Eigen::ArrayXXf, 0, Eigen::OuterStride<>> scores(
-      first, count, classes, Eigen::OuterStride<>(stride));
+      first, count, outputs, Eigen::OuterStride<>(stride));
   Eigen::ArrayXXf& scratch = memory_->scratch;
   scratch = (scores.colwise() - scores.rowwise().maxCoeff()).exp();
+  Eigen::ArrayXXf& merged = memory_->merged;
+  merged.setZero(count, classes);
+  for (int k = 0; k < outputs; ++k) merged.col(memory_->class_of[k]) += scratch.col(k);
   const std::size_t begin = static_cast<std::size_t>(row) * result_.columns + parity;
   Eigen::Map<Eigen::ArrayXXf, 0, Eigen::OuterStride<>> probabilities(
       &result_.values[begin * classes], classes, count, Eigen::OuterStride<>(2 * classes));
-  probabilities = (scratch.colwise() / scratch.rowwise().sum()).transpose();
+  probabilities = (merged.colwise() / merged.rowwise().sum()).transpose();
 }
 
 }  // namespace saker::segmentation

@@ -16,12 +16,14 @@ struct PixelProbabilities {
 
 /// The network of tools/training/model.py, by OpenCV's DNN on one thread. The image is wrapped
 /// around by 16 columns at each side, so that there is no seam, and its rows are filled up to a
-/// multiple of 8. One instance a thread.
+/// multiple of 16. One instance a thread.
 class Network {
  public:
-  /// `weights` are the bytes of the ONNX file; `file` is for messages. Throws Error where they are
-  /// not a network of that many input channels and classes.
-  Network(const std::string& weights, const std::filesystem::path& file, int channels, int classes);
+  /// `weights` are the bytes of the ONNX file; `file` is for messages. The network may tell more
+  /// apart than is asked for: `class_of` has the class of each of its outputs, whose probabilities
+  /// add up. Throws Error where they are not a network of that many input channels and outputs.
+  Network(const std::string& weights, const std::filesystem::path& file, int channels,
+          std::vector<int> class_of);
   ~Network();
   Network(Network&&) noexcept;
   Network& operator=(Network&&) noexcept;

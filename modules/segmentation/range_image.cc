@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "segmentation/rings.h"
+#include "lidar/rings.h"
 
 namespace saker::segmentation {
 namespace {
@@ -59,7 +59,7 @@ int column_of(const Eigen::Vector3f& p, int columns) {
 }
 
 void project_unorganised(const lidar::Scan& scan, RangeImage& image) {
-  const Rings rings = recover_rings(scan.points);
+  const lidar::Rings rings = lidar::recover_rings(scan.points, scan.ring);
   const int shift = halvings(rings.count, kMaxRows);
   const int columns = rings.azimuth_step > kWideStep ? kMaxColumns / 2 : kMaxColumns;
   clear(image, ((rings.count - 1) >> shift) + 1, columns, scan.size());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lidar/rings.h"
 #include "lidar/scan.h"
 
 namespace saker::segmentation {
@@ -12,8 +13,9 @@ namespace saker::segmentation {
 /// that it reads as a picture seen from the sensor), the nearest point in each pixel.
 ///
 /// An organised scan keeps its own pixels; more than 80 rows or 1024 columns are halved until they
-/// fit. An unorganised scan gets its rows from rings.h and its columns from the azimuth: 1024, or
-/// 512 where neighbours in a ring are farther apart than 0.5°.
+/// fit. An unorganised scan gets its rows from lidar/rings.h, so that they follow the beams however
+/// unevenly these lie, and its columns from the azimuth: 1024, or 512 where neighbours in a ring
+/// are farther apart than 0.5°.
 struct RangeImage {
   int rows = 0;
   int columns = 0;
@@ -29,8 +31,7 @@ struct RangeImage {
 inline constexpr int kMaxRows = 80;  // 64, and what unfolding may find too many
 inline constexpr int kMaxColumns = 1024;
 
-/// Points nearer than this are the sensor's own housing or no return at all.
-inline constexpr float kMinRange = 0.3F;
+using lidar::kMinRange;
 
 /// Writes into `image`, whose memory is used again from scan to scan.
 void project(const lidar::Scan& scan, RangeImage& image);

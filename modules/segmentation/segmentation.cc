@@ -24,8 +24,7 @@ Network load(const SegmentationConfig& config, const objects::ClassTable& table)
   const fs::path description = fs::path(file).replace_extension(".yaml");
   const Sidecar sidecar = read_sidecar(description);
   const std::string weights = read_bytes(file);
-  check_sidecar(sidecar, description, table, weights);
-  return Network(weights, file, kChannelCount, table.size());
+  return Network(weights, file, kChannelCount, check_sidecar(sidecar, description, table, weights));
 }
 
 }  // namespace
@@ -36,7 +35,17 @@ Segmentation::Segmentation(const SegmentationConfig& config, const objects::Clas
       network_(load(config_, table)),
       features_(up) {}
 
-lidar::Labels Segmentation::segment(const lidar::Scan& scan) {
+/// The scan itself where its frame is the sensor's, else a copy in that.
+const lidar::Scan& Segmentation::in_sensor_frame(const lidar::Scan& scan) {
+  if (scan.T_lidar_sensor.matrix().isIdentity()) return scan;
+  moved_ = scan;
+  const Eigen::Isometry3f T_sensor_lidar = scan.T_lidar_sensor.inverse();
+  for (Eigen::Vector3f& point : moved_.points) point = T_sensor_lidar * point;
+  return moved_;
+}
+
+lidar::Labels Segmentation::segment(const lidar::Scan& given) {
+  const lidar::Scan& scan = in_sensor_frame(given);
   project(scan, image_);
   if (image_.size() == 0)
     return {std::vector<std::uint8_t>(scan.size(), 0), std::vector<float>(scan.size(), 0.0F)};

@@ -44,8 +44,11 @@ class Segmentation {
   [[nodiscard]] lidar::Labels segment(const lidar::Scan& scan);
 
  private:
+  [[nodiscard]] const lidar::Scan& in_sensor_frame(const lidar::Scan& scan);
+
   SegmentationConfig config_;
   Network network_;
+  lidar::Scan moved_;
   RangeImage image_;
   Features features_;
   BackProjection back_projection_;

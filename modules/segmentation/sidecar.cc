@@ -2,6 +2,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/sha256.h"
 #include "segmentation/features.h"
@@ -43,19 +45,35 @@ Sidecar read_sidecar(const std::filesystem::path& file) {
   } catch (const YAML::Exception& error) {
     throw Error(file.string() + ": not YAML: " + error.msg);
   }
-  return {read_key<std::vector<std::string>>(root, "classes", file),
+  return {read_key<std::vector<std::string>>(root, "outputs", file),
+          read_key<std::vector<std::string>>(root, "classes", file),
           read_key<std::vector<std::string>>(root, "channels", file),
           read_key<std::string>(root, "sha256", file)};
 }
 
-void check_sidecar(const Sidecar& sidecar, const std::filesystem::path& file,
-                   const objects::ClassTable& table, const std::string& weights) {
+std::vector<int> check_sidecar(const Sidecar& sidecar, const std::filesystem::path& file,
+                               const objects::ClassTable& table, const std::string& weights) {
+  if (sidecar.outputs.size() != sidecar.classes.size()) {
+    throw Error(file.string() + ": " + std::to_string(sidecar.classes.size()) +
+                " classes, expected " + std::to_string(sidecar.outputs.size()) + ", one an output");
+  }
   std::vector<std::string> names;
   for (const objects::ObjectClass& c : table.classes) names.push_back(c.name);
-  expect_same(sidecar.classes, names, "classes", file);
+  std::vector<int> class_of;
+  for (const std::string& name : sidecar.classes) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw Error(file.string() + ": class " + name + ", expected one of " + joined(names));
+    class_of.push_back(static_cast<int>(found - names.begin()));
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (std::find(class_of.begin(), class_of.end(), static_cast<int>(k)) == class_of.end())
+      throw Error(file.string() + ": classes " + joined(sidecar.classes) + ", expected one for " +
+                  names[k]);
+  }
   expect_same(sidecar.channels, {kChannels.begin(), kChannels.end()}, "channels", file);
   const std::string found = core::sha256(weights);
-  if (found == sidecar.sha256) return;
+  if (found == sidecar.sha256) return class_of;
   throw Error(file.string() + ": sha256 " + sidecar.sha256 + ", but the weights beside it have " +
               found);
 }

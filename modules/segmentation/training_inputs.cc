@@ -28,10 +28,14 @@ saker::lidar::Scan scan_of(const float* points, int count, int rows, int columns
 extern "C" {
 
 /// An unorganised scan's image: `size` gets rows and columns, `point` (at least 80 × 1024) the
-/// index of the point in each pixel or −1, `pixel` (count) the pixel of each point or −1.
-void saker_project(const float* points, int count, int* size, int* point, int* pixel) {
+/// index of the point in each pixel or −1, `pixel` (count) the pixel of each point or −1. `ring`:
+/// ring number of each point, or null.
+void saker_project(const float* points, const std::uint16_t* ring, int count, int* size, int* point,
+                   int* pixel) {
   RangeImage image;
-  saker::segmentation::project(scan_of(points, count, 0, 0), image);
+  saker::lidar::Scan scan = scan_of(points, count, 0, 0);
+  if (ring != nullptr) scan.ring.assign(ring, ring + count);
+  saker::segmentation::project(scan, image);
   size[0] = image.rows;
   size[1] = image.columns;
   std::copy(image.point.begin(), image.point.end(), point);

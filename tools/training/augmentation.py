@@ -3,6 +3,10 @@ places it has never seen. All take and return (points (rows, columns, 3), labels
 """
 import numpy as np
 
+import labels as classes
+
+GROUND = classes.OUTPUTS.index("ground")
+
 
 def rotation(roll, pitch, yaw):
     cr, sr, cp, sp, cy, sy = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
@@ -15,12 +19,6 @@ def fewer_beams(points, labels, factor, rng):
     """Every second or fourth row: a sensor of 32 or 16 beams."""
     first = rng.integers(factor)
     return points[first::factor], labels[first::factor]
-
-
-def fewer_columns(points, labels, rng):
-    """Every second column: the sensor's faster mode."""
-    first = rng.integers(2)
-    return points[:, first::2], labels[:, first::2]
 
 
 def roll(points, labels, rng):
@@ -50,7 +48,7 @@ def rough_ground(points, labels, rng):
     rows, columns = labels.shape
     sigma = rng.uniform(0, 0.05) * np.repeat(rng.random((rows, columns // 32)), 32, 1)
     lifted = points.copy()
-    ground = labels[:, :sigma.shape[1]] == 4
+    ground = labels[:, :sigma.shape[1]] == GROUND
     lifted[:, :sigma.shape[1], 2] += ground * np.abs(rng.normal(0, 1, sigma.shape)) * sigma
     return lifted, labels
 

@@ -1,5 +1,5 @@
-"""Labelled scans (SemanticKITTI layout: DIR/velodyne/*.bin and DIR/labels/*.label, also inside folders of DIR) as samples for the
-network."""
+"""Labelled scans (SemanticKITTI layout: DIR/velodyne/*.bin, DIR/labels/*.label and, where the recording has them, ring numbers
+DIR/ring/*.u8 or *.u16; also inside folders of DIR) as samples for the network."""
 import pathlib
 
 import numpy as np
@@ -9,8 +9,9 @@ import augmentation
 import inputs
 import labels as classes
 
-ROWS = 64  # of the images that are kept; rings that unfolding finds beyond them are dropped
-COLUMNS = 1024
+ROWS, COLUMNS = 80, 1024  # of the images that are kept: what modules/segmentation/range_image.h gives at most
+STEP = 16  # rows of a batch are a multiple of this
+RARE = [classes.OUTPUTS.index(name) for name in ("trunk", "pole", "van", "truck", "bus", "other_vehicle")]
 
 
 def files(folder):
@@ -20,88 +21,108 @@ def files(folder):
 
 
 def read_scan(scan, truth):
-    """Points (n, 3) and their classes."""
+    """Points (n, 3) and what the network should call them."""
     points = np.fromfile(scan, np.float32).reshape(-1, 4)[:, :3]
     return points, classes.table()[np.fromfile(truth, np.uint32) & 0xFFFF]
 
 
-def image_of(points, label):
+def read_rings(scan):
+    """Ring number of each point, or None."""
+    folder = scan.parent.parent / "ring"
+    for suffix, kind in ((".u8", np.uint8), (".u16", np.uint16)):
+        file = folder / (scan.stem + suffix)
+        if file.exists():
+            return np.fromfile(file, kind)
+    return None
+
+
+def image_of(points, label, ring=None):
     """Image of points, image of classes (IGNORED where nothing returned), pixel of each point."""
-    index, pixel = inputs.project(points)
+    index, pixel = inputs.project(points, ring)
     image = np.full(index.shape + (3,), np.nan, np.float32)
     image[index >= 0] = points[index[index >= 0]]
     truth = np.where(index >= 0, label[np.maximum(index, 0)], classes.IGNORED).astype(np.uint8)
     return image, truth, pixel
 
 
-def fitted(image, truth, rows, columns):
-    """Cut or padded with nothing at the bottom and on the right."""
-    points = np.full((rows, columns, 3), np.nan, np.float32)
-    label = np.full((rows, columns), classes.IGNORED, np.uint8)
-    r, c = min(rows, len(image)), min(columns, image.shape[1])
-    points[:r, :c], label[:r, :c] = image[:r, :c], truth[:r, :c]
-    return points, label
-
-
 class Images:
-    """The projected scans of a folder, kept in a file beside them so that every pass reads pixels only."""
+    """The projected scans of a folder, kept in files beside them so that every pass reads pixels only.
+
+    Every second scan is projected without its ring numbers: most recordings have none.
+    """
 
     def __init__(self, folder):
+        folder = pathlib.Path(folder)
         self.names = [str(scan.relative_to(folder)) for scan, _ in files(folder)]
-        cache = pathlib.Path(folder)
-        points, truths = cache / "images.f32", cache / "images.u8"
         shape = (len(self.names), ROWS, COLUMNS)
-        if not points.exists() or points.stat().st_size != 12 * np.prod(shape):
-            self._project(folder, points, truths, shape)
-        self.points = np.memmap(points, np.float32, "r", shape=shape + (3,))
-        self.truths = np.memmap(truths, np.uint8, "r", shape=shape)
+        if not (folder / "images.done").exists():
+            self._project(folder, shape)
+        self.points = np.memmap(folder / "images.f32", np.float32, "r", shape=shape + (3,))
+        self.truths = np.memmap(folder / "images.u8", np.uint8, "r", shape=shape)
+        self.sizes = np.load(folder / "images.npy")
 
     @staticmethod
-    def _project(folder, points, truths, shape):
-        out = np.memmap(points, np.float32, "w+", shape=shape + (3,))
-        label = np.memmap(truths, np.uint8, "w+", shape=shape)
+    def _project(folder, shape):
+        points = np.memmap(folder / "images.f32", np.float32, "w+", shape=shape + (3,))
+        truths = np.memmap(folder / "images.u8", np.uint8, "w+", shape=shape)
+        sizes = np.zeros((shape[0], 2), np.int32)
         for i, (scan, truth) in enumerate(files(folder)):
-            image, classes_, _ = image_of(*read_scan(scan, truth))
-            out[i], label[i] = fitted(image, classes_, ROWS, COLUMNS)
-        out.flush()
-        label.flush()
+            image, label, _ = image_of(*read_scan(scan, truth), read_rings(scan) if i % 2 else None)
+            rows, columns = sizes[i] = image.shape[:2]
+            points[i, :rows, :columns], truths[i, :rows, :columns] = image, label
+        points.flush()
+        truths.flush()
+        np.save(folder / "images.npy", sizes)
+        (folder / "images.done").touch()
 
     def __len__(self):
         return len(self.names)
 
+    def __getitem__(self, i):
+        """Points and truth of one scan."""
+        rows, columns = self.sizes[i]
+        return np.array(self.points[i, :rows, :columns]), np.array(self.truths[i, :rows, :columns])
+
 
 class Batches(torch.utils.data.Dataset):
-    """Item i is a whole batch: crops of augmented scans, all of one sensor (64 rows; sometimes 32 or 16, or half the columns)."""
+    """Item i is a whole batch: crops of augmented scans that have about as many rows."""
 
     def __init__(self, images, chosen, batch, width, seed):
-        self.images, self.chosen, self.batch, self.width, self.seed = images, chosen, batch, width, seed
-        truths = images.truths
-        rare = np.array([np.isin(truths[i], (2, 3)).sum() for i in chosen], float)
-        self.odds = (1 + np.minimum(rare, 1500) / 500) / (1 + np.minimum(rare, 1500) / 500).sum()
+        self.images, self.batch, self.width, self.seed = images, batch, width, seed
+        odds = np.array([self._odds(i) for i in chosen])
+        filled = -(-images.sizes[chosen, 0] // STEP)
+        self.alike = [(np.array(chosen)[filled == k], odds[filled == k]) for k in np.unique(filled)]
+        self.share = np.array([share.sum() for _, share in self.alike]) / odds.sum()
+
+    def _odds(self, i):
+        """Scans with rare classes come more often."""
+        rows, columns = self.images.sizes[i]
+        return 1 + min(np.isin(self.images.truths[i, :rows, :columns], RARE).sum(), 3000) / 1000
 
     def __len__(self):
         return 1 << 30
 
     def __getitem__(self, number):
         rng = np.random.default_rng((self.seed, number))
-        beams = rng.choice([1, 2, 4], p=[0.75, 0.18, 0.07])
-        half = beams == 1 and rng.random() < 0.12
-        samples = []
-        while len(samples) < self.batch:
-            samples += self._crops(rng, beams, half, min(2, self.batch - len(samples)))
-        values, truth = zip(*samples)
+        scans, odds = self.alike[rng.choice(len(self.alike), p=self.share)]
+        beams = 2 if rng.random() < 0.15 and self.images.sizes[scans[0], 0] >= 32 else 1
+        samples, rows, wanted = [], None, None
+        while wanted is None or len(samples) < wanted:
+            points, label = self.images[rng.choice(scans, p=odds / odds.sum())]
+            if beams > 1:
+                points, label = augmentation.fewer_beams(points, label, beams, rng)
+            if rows is None:
+                rows = -(-len(points) // STEP) * STEP
+                wanted = max(1, self.batch * 64 // rows)
+            samples += self._crops(points, label, rows, rng)
+        values, truth = zip(*samples[:wanted])
         return torch.from_numpy(np.stack(values)), torch.from_numpy(np.stack(truth).astype(np.int64))
 
-    def _crops(self, rng, beams, half, count):
-        """Of one augmented scan, at random places."""
-        i = rng.choice(self.chosen, p=self.odds)
-        points, label = np.array(self.images.points[i]), np.array(self.images.truths[i])
-        if beams > 1:
-            points, label = augmentation.fewer_beams(points, label, beams, rng)
-        if half:
-            points, label = augmentation.fewer_columns(points, label, rng)
+    def _crops(self, points, label, rows, rng):
+        """Two of one augmented scan, at random places."""
         points, label = augmentation.augment(points, label, rng)
-        values = inputs.features(points)
-        width = self.width // 2 if half else self.width
-        for c in rng.permutation(points.shape[1] // width)[:count] * width:
-            yield values[:, :, c:c + width], label[:, c:c + width]
+        values = np.pad(inputs.features(points), ((0, 0), (0, rows - len(points)), (0, 0)))
+        label = np.pad(label, ((0, rows - len(label)), (0, 0)), constant_values=classes.IGNORED)
+        places = points.shape[1] // self.width
+        return [(values[:, :, c:c + self.width], label[:, c:c + self.width])
+                for c in rng.permutation(places)[:2] * self.width]

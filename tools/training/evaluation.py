@@ -17,18 +17,47 @@ PAD = 16  # columns that wrap around at each side, as in modules/segmentation/ne
 
 
 def padded(values):
-    """The columns wrap around; rows are filled up to a multiple of 8."""
-    rows = -values.shape[1] % 8
+    """The columns wrap around; rows are filled up to a multiple of 16, columns of 32."""
+    rows = -values.shape[1] % 16
     values = np.pad(values, ((0, 0), (0, rows), (0, 0)))
-    return np.concatenate([values[:, :, -PAD:], values, values[:, :, :PAD]], 2)
+    values = np.concatenate([values[:, :, -PAD:], values, values[:, :, :PAD]], 2)
+    return np.pad(values, ((0, 0), (0, 0), (0, -values.shape[2] % 32)))
 
 
 def predict(model, image):
-    """Class of each pixel."""
+    """Class of each pixel: the probabilities of the outputs that are merged into one add up."""
+    return class_probability(scores_of(model, image)).argmax(0).astype(np.uint8)
+
+
+def scores_of(model, image):
+    """Scores of the outputs (outputs, rows, columns)."""
     values = padded(inputs.features(image))
-    with torch.no_grad(), torch.cpu.amp.autocast(dtype=torch.bfloat16):
-        scores = network.scores(model(torch.from_numpy(values)[None]))
-    return scores[0, :, :image.shape[0], PAD:PAD + image.shape[1]].float().argmax(0).numpy().astype(np.uint8)
+    device = next(model.parameters()).device
+    with torch.no_grad(), torch.autocast(device.type, dtype=torch.bfloat16):
+        scores = network.scores(model(torch.from_numpy(values)[None].to(device)))
+    return scores[0, :, :image.shape[0], PAD:PAD + image.shape[1]].float().cpu()
+
+
+def class_probability(scores):
+    """(classes, rows, columns) of scores of the outputs."""
+    probability = scores.softmax(0).numpy()
+    return np.stack([probability[classes.CLASS_OF == k].sum(0) for k in range(len(classes.CLASSES))])
+
+
+def temperature(model, files):
+    """By which the scores are divided so that the probability of the class is right on `files`: Guo et al., "On Calibration of Modern
+    Neural Networks", ICML 2017; the likeliest of a grid."""
+    grid = np.exp(np.linspace(-0.7, 0.7, 29))
+    loss = np.zeros(len(grid))
+    for scan, truth in files:
+        image, label, _ = dataset.image_of(*dataset.read_scan(scan, truth), dataset.read_rings(scan))
+        scores = scores_of(model, image)
+        wanted = classes.merged(label)
+        row, column = np.nonzero(wanted != classes.IGNORED)
+        for k, t in enumerate(grid):
+            own = class_probability(scores / t)[wanted[row, column], row, column]
+            loss[k] -= np.log(np.maximum(own, 1e-6)).sum()
+    return float(grid[loss.argmin()])
 
 
 def confusion(predicted, truth):
@@ -51,9 +80,9 @@ def evaluate(model, files, save=None):
     total = np.zeros((len(classes.CLASSES),) * 2, np.int64)
     for scan, truth in files:
         points, label = dataset.read_scan(scan, truth)
-        image, _, pixel = dataset.image_of(points, label)
+        image, _, pixel = dataset.image_of(points, label, dataset.read_rings(scan))
         predicted = np.where(pixel >= 0, predict(model, image).ravel()[np.maximum(pixel, 0)], 0).astype(np.uint8)
-        total += confusion(predicted, label)
+        total += confusion(predicted, classes.merged(label))
         if save:
             (save / "labels").mkdir(parents=True, exist_ok=True)
             classes.WRITTEN[predicted].tofile(save / "labels" / truth.name)

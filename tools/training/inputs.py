@@ -25,13 +25,15 @@ def _pointer(array):
     return array.ctypes.data_as(ctypes.c_void_p)
 
 
-def project(points):
+def project(points, ring=None):
     """Index of the point in each pixel (rows, columns), -1 for none, and the pixel of each point, of (n, 3) points."""
     points = np.ascontiguousarray(points, np.float32)
     size = np.zeros(2, np.int32)
     point = np.empty(MAX_PIXELS, np.int32)
     pixel = np.empty(len(points), np.int32)
-    _library.saker_project(_pointer(points), len(points), _pointer(size), _pointer(point), _pointer(pixel))
+    ring = None if ring is None else np.ascontiguousarray(ring, np.uint16)
+    rings = None if ring is None else _pointer(ring)
+    _library.saker_project(_pointer(points), rings, len(points), _pointer(size), _pointer(point), _pointer(pixel))
     return point[: size[0] * size[1]].reshape(size[0], size[1]).copy(), pixel
 
 

@@ -3,7 +3,7 @@ down to what one thread of a small computer runs in 100 ms.
 
 The stem halves the width (a scan has far more columns than rows) and the head gives it back: each output column holds the scores of
 two input columns. Strides of 2 in both directions after that, sums over the skips, nearest-neighbour upsampling; nothing else, so that
-OpenCV's DNN runs it fast. Rows must be a multiple of 8, columns of 16.
+OpenCV's DNN runs it fast. Rows must be a multiple of 16, columns of 32.
 """
 import copy
 
@@ -41,15 +41,17 @@ class Decoder(nn.Module):
 
 
 class RangeNet(nn.Module):
-    def __init__(self, channels, classes, widths=(24, 48, 96, 128)):
+    def __init__(self, channels, classes, widths=(16, 32, 64, 96, 128)):
         super().__init__()
         self.config = {"channels": channels, "classes": classes, "widths": list(widths)}
-        a, b, c, d = widths
+        a, b, c, d, e = widths
         self.stem = convolution(channels, a, (3, 5), (1, 2))
         self.encode1 = Residual(a)
         self.encode2 = nn.Sequential(convolution(a, b, 3, 2), Residual(b))
         self.encode3 = nn.Sequential(convolution(b, c, 3, 2), Residual(c))
-        self.encode4 = nn.Sequential(convolution(c, d, 3, 2), Residual(d), Residual(d))
+        self.encode4 = nn.Sequential(convolution(c, d, 3, 2), Residual(d))
+        self.encode5 = nn.Sequential(convolution(d, e, 3, 2), Residual(e), Residual(e))
+        self.decode4 = Decoder(e, d)
         self.decode3 = Decoder(d, c)
         self.decode2 = Decoder(c, b)
         self.decode1 = Decoder(b, a)
@@ -60,7 +62,9 @@ class RangeNet(nn.Module):
         x1 = self.encode1(self.stem(x))
         x2 = self.encode2(x1)
         x3 = self.encode3(x2)
-        x = self.decode3(self.encode4(x3), x3)
+        x4 = self.encode4(x3)
+        x = self.decode4(self.encode5(x4), x4)
+        x = self.decode3(x, x3)
         x = self.decode2(x, x2)
         return self.head(self.decode1(x, x1))
 

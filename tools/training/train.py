@@ -13,6 +13,7 @@ import math
 import pathlib
 import time
 
+import numpy as np
 import torch
 import torch.nn.functional as F
 
@@ -23,19 +24,34 @@ import labels as classes
 import model as network
 
 CLASS_WEIGHTS = torch.tensor([1.0, 2.0, 2.5, 4.0, 0.8])
+KIND_SHARE = 0.4  # of the loss of the finer outputs: which kind of vehicle it is matters less than that it is one
+
+
+def class_scores(scores):
+    """Log-odds of the classes from those of the outputs: probabilities of what is merged add up."""
+    of = torch.from_numpy(classes.CLASS_OF)
+    return torch.stack([scores[:, of == k].logsumexp(1) for k in range(len(classes.CLASSES))], 1)
+
+
+def dice_of(scores, truth, known):
+    """Soft Dice over the batch, mean over the classes that are in it."""
+    probability = scores.softmax(1) * known
+    target = F.one_hot(truth, scores.shape[1]).permute(0, 3, 1, 2) * known
+    both, size = (probability * target).sum((0, 2, 3)), (probability + target).sum((0, 2, 3))
+    there = target.sum((0, 2, 3)) > 20
+    return (1 - 2 * both / (size + 1))[there].mean()
 
 
 def loss_of(output, truth):
-    """Cross-entropy and soft Dice over the batch; classes that are not in it count in the first only."""
+    """Cross-entropy and soft Dice of the classes, and a share of the cross-entropy of the outputs."""
     scores = network.scores(output).float()
-    entropy = F.cross_entropy(scores, truth, CLASS_WEIGHTS, ignore_index=classes.IGNORED, label_smoothing=0.02)
-    known = (truth != classes.IGNORED).unsqueeze(1)
-    probability = scores.softmax(1) * known
-    target = F.one_hot(torch.where(known[:, 0], truth, 0), len(classes.CLASSES)).permute(0, 3, 1, 2) * known
-    both, size = (probability * target).sum((0, 2, 3)), (probability + target).sum((0, 2, 3))
-    there = target.sum((0, 2, 3)) > 20
-    dice = 1 - 2 * both / (size + 1)
-    return entropy + dice[there].mean()
+    merged_scores = class_scores(scores)
+    known = truth != classes.IGNORED
+    merge = torch.from_numpy(classes.merged(np.arange(256, dtype=np.uint8)).astype(np.int64)).to(truth.device)
+    merged = merge[truth]
+    entropy = F.cross_entropy(merged_scores, merged, CLASS_WEIGHTS.to(truth.device), ignore_index=classes.IGNORED, label_smoothing=0.02)
+    kinds = F.cross_entropy(scores, truth, ignore_index=classes.IGNORED, label_smoothing=0.02)
+    return entropy + dice_of(merged_scores, torch.where(known, merged, 0), known.unsqueeze(1)) + KIND_SHARE * kinds
 
 
 def rate(step, steps, highest):
@@ -50,19 +66,21 @@ class Trainer:
     def __init__(self, args):
         self.args = args
         torch.manual_seed(args.seed)
-        self.model = network.RangeNet(inputs.CHANNELS, len(classes.CLASSES), args.widths).to(memory_format=torch.channels_last)
+        self.model = network.RangeNet(inputs.CHANNELS, len(classes.OUTPUTS), args.widths).to(args.device, memory_format=torch.channels_last)
         self.average = copy.deepcopy(self.model).eval()
         self.optimizer = torch.optim.AdamW(self.model.parameters(), lr=args.rate, weight_decay=0.01)
         self.step = 0
+        self.seconds = 0.0
         self.checkpoint = args.out / "checkpoint.pt"
         if self.checkpoint.exists():
             self._resume()
         elif args.start:
-            self.model.load_state_dict(torch.load(args.start)["average"])
+            self.model.load_state_dict(torch.load(args.start, map_location=args.device)["average"])
             self.average.load_state_dict(self.model.state_dict())
 
     def _resume(self):
-        state = torch.load(self.checkpoint)
+        state = torch.load(self.checkpoint, map_location=self.args.device)
+        self.seconds = state["seconds"]
         self.step = state["step"]
         self.model.load_state_dict(state["model"])
         self.average.load_state_dict(state["average"])
@@ -71,7 +89,8 @@ class Trainer:
     def save(self):
         state = {"step": self.step, "config": self.model.config, "model": self.model.state_dict(),
                  "average": self.average.state_dict(), "optimizer": self.optimizer.state_dict(),
-                 "seed": self.args.seed, "steps": self.args.steps, "scans": str(self.args.scans)}
+                 "seed": self.args.seed, "steps": self.args.steps, "scans": len(dataset.files(self.args.scans)),
+                 "seconds": self.seconds, "device": self.args.device, "batch": self.args.batch, "rate": self.args.rate}
         temporary = self.checkpoint.with_suffix(".new")
         torch.save(state, temporary)
         temporary.replace(self.checkpoint)
@@ -80,9 +99,9 @@ class Trainer:
         for group in self.optimizer.param_groups:
             group["lr"] = rate(self.step, self.args.steps, self.args.rate)
         self.model.train()
-        with torch.cpu.amp.autocast(dtype=torch.bfloat16):
-            output = self.model(values.to(memory_format=torch.channels_last))
-        loss = loss_of(output, truth)
+        with torch.autocast(self.args.device, dtype=torch.bfloat16):
+            output = self.model(values.to(self.args.device, memory_format=torch.channels_last))
+        loss = loss_of(output, truth.to(self.args.device))
         self.optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(self.model.parameters(), 5.0)
@@ -122,9 +141,11 @@ def run(args):
     every = dataset.files(args.scans)
     held_out = every[-max(1, len(every) // 20):][:40]
     mean, saved = None, time.time()
+    began, before = time.time(), trainer.seconds
     for values, truth in batches(args, trainer.step):
         loss = trainer.train_batch(values, truth)
         mean = loss if mean is None else 0.98 * mean + 0.02 * loss
+        trainer.seconds = before + time.time() - began
         if trainer.step % 100 == 0:
             print(f"step {trainer.step} of {args.steps}: loss {mean:.4f}, {time.strftime('%H:%M:%S')}", flush=True)
         if time.time() - saved > args.save_every or trainer.step == args.steps:
@@ -145,7 +166,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--workers", type=int, default=1)
-    parser.add_argument("--widths", type=int, nargs=4, default=[24, 40, 64, 128])
+    parser.add_argument("--widths", type=int, nargs=5, default=[16, 32, 64, 96, 128])
+    parser.add_argument("--device", default="cuda" if torch.cuda.is_available() else "cpu")
     parser.add_argument("--save-every", type=float, default=240, help="s")
     parser.add_argument("--measure", type=pathlib.Path, nargs="*", default=[], help="folders of labelled scans to measure on")
     run(parser.parse_args())

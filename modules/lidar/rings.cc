@@ -1,17 +1,17 @@
-#include "segmentation/rings.h"
+#include "lidar/rings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
-#include "segmentation/range_image.h"
+#include "lidar/elevation_bands.h"
 
-namespace saker::segmentation {
+namespace saker::lidar {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kMinRings = 8;
-constexpr int kBins = 64;
 constexpr float kJumpBack = 0.35F;   // rad against the direction of rotation: a new ring
 constexpr float kThinRing = 0.012F;  // rad, median spread of a ring's elevation
 
@@ -82,7 +82,7 @@ std::vector<std::vector<float>> elevations_by_ring(const Angles& angles,
   return by_ring;
 }
 
-/// A beam's points share an elevation, but for the calibration of the sensor.
+/// A beam's points share an elevation, but for calibration, motion and a sensor that is tilted.
 bool thin(const std::vector<std::vector<float>>& by_ring) {
   std::vector<float> spread;
   for (const std::vector<float>& elevation : by_ring) {
@@ -113,38 +113,75 @@ float azimuth_step(const std::vector<float>& azimuth) {
   return median(std::move(steps));
 }
 
-void take_order(const Angles& angles, const std::vector<int>& ring, Rings& rings) {
+/// Numbers the rings from the highest down, `ring` being consecutive from 0 in any order.
+std::vector<std::int32_t> by_height(const std::vector<std::vector<float>>& by_ring) {
+  std::vector<float> centre;
+  for (const std::vector<float>& elevation : by_ring) centre.push_back(median(elevation));
+  std::vector<std::int32_t> order(by_ring.size()), number(by_ring.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return centre[a] > centre[b]; });
+  for (std::size_t k = 0; k < order.size(); ++k) number[order[k]] = static_cast<std::int32_t>(k);
+  return number;
+}
+
+bool take_given(const Angles& angles, const std::vector<std::uint16_t>& given, Rings& rings) {
+  std::vector<int> seen(std::size_t{1} << 16, -1), ring;
+  int count = 0;
+  for (const std::int32_t i : angles.index) {
+    int& number = seen[given[i]];
+    if (number < 0) number = count++;
+    if (count > kMaxRings) return false;
+    ring.push_back(number);
+  }
+  std::vector<std::vector<float>> elevations(count);
+  for (std::size_t i = 0; i < ring.size(); ++i) elevations[ring[i]].push_back(angles.elevation[i]);
+  if (count < kMinRings || !thin(elevations)) return false;
+  const std::vector<std::int32_t> number = by_height(elevations);
+  for (std::size_t i = 0; i < ring.size(); ++i) rings.of_point[angles.index[i]] = number[ring[i]];
+  rings.count = count;
+  rings.source = RingSource::given;
+  rings.azimuth_step = find_azimuth_step(angles.azimuth, angles.elevation);
+  return true;
+}
+
+bool take_order(const Angles& angles, Rings& rings) {
+  const std::vector<int> ring = unfold(angles.azimuth);
   const auto by_ring = elevations_by_ring(angles, ring);
-  if (by_ring.size() < kMinRings || by_ring.size() > kMaxRings || !thin(by_ring)) return;
+  if (by_ring.size() < kMinRings || by_ring.size() > kMaxRings || !thin(by_ring)) return false;
   rings.count = static_cast<int>(by_ring.size());
-  rings.from_order = true;
+  rings.source = RingSource::order;
+  rings.azimuth_step = azimuth_step(angles.azimuth);
   const bool upside_down = rises(by_ring);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     rings.of_point[angles.index[i]] = upside_down ? rings.count - 1 - ring[i] : ring[i];
   }
+  return true;
 }
 
-void take_bins(const Angles& angles, Rings& rings) {
-  const auto [low, high] = std::minmax_element(angles.elevation.begin(), angles.elevation.end());
-  const float height = std::max(*high - *low, 1e-3F);
-  rings.count = kBins;
-  for (std::size_t i = 0; i < angles.index.size(); ++i) {
-    const float down = (*high - angles.elevation[i]) / height;
-    rings.of_point[angles.index[i]] = std::min(static_cast<int>(down * kBins), kBins - 1);
-  }
+void take_bands(const Angles& angles, Rings& rings) {
+  constexpr float kUsualStep = 0.0035F;  // 0.2°, where the points are too few to tell
+  rings.azimuth_step = find_azimuth_step(angles.azimuth, angles.elevation);
+  const float step = rings.azimuth_step > 0 ? rings.azimuth_step : kUsualStep;
+  const ElevationBands bands =
+      find_elevation_bands(angles.azimuth, angles.elevation, step, kMaxRings);
+  rings.count = bands.count();
+  rings.source = RingSource::bands;
+  for (std::size_t i = 0; i < angles.index.size(); ++i)
+    rings.of_point[angles.index[i]] = bands.of(angles.elevation[i]);
 }
 
 }  // namespace
 
-Rings recover_rings(const std::vector<Eigen::Vector3f>& points) {
+Rings recover_rings(const std::vector<Eigen::Vector3f>& points,
+                    const std::vector<std::uint16_t>& given) {
   Rings rings;
   rings.of_point.assign(points.size(), -1);
   const Angles angles = angles_of(points);
   if (angles.index.empty()) return rings;
-  take_order(angles, unfold(angles.azimuth), rings);
-  if (!rings.from_order) take_bins(angles, rings);
-  if (rings.from_order) rings.azimuth_step = azimuth_step(angles.azimuth);
+  if (given.size() == points.size() && take_given(angles, given, rings)) return rings;
+  if (!take_order(angles, rings)) take_bands(angles, rings);
   return rings;
 }
 
-}  // namespace saker::segmentation
+}  // namespace saker::lidar
