@@ -127,6 +127,8 @@ TEST_F(SpoiltModel, IsRefusedInOneLineThatSaysWhy) {
   EXPECT_NE(refusal().find("not found"), std::string::npos) << "no description";
   describe(with("- trunk", "- tree"));
   EXPECT_NE(refusal().find("tree"), std::string::npos) << "another class";
+  describe(with("outputs:\n", "outputs:\n- one_more\n"));
+  EXPECT_NE(refusal().find("one an output"), std::string::npos) << "an output without a class";
   describe(with("- slope", "- colour"));
   EXPECT_NE(refusal().find("colour"), std::string::npos) << "another channel";
   describe(with("sha256:", "md5:"));

@@ -15,10 +15,14 @@ except ImportError as missing:
 
 import augmentation
 import dataset
+import evaluation
 import inputs
 import labels as classes
 import model as network
 import train
+
+
+GROUND = classes.OUTPUTS.index("ground")
 
 
 def made_scan(rows=64, columns=1024):
@@ -29,7 +33,7 @@ def made_scan(rows=64, columns=1024):
     ground = np.where(ray[..., 2] < 0, -2 / np.minimum(ray[..., 2], -1e-6), np.inf)
     wall = 10 / np.cos(elevation) + 0 * azimuth
     points = (ray * np.minimum(ground, wall)[..., None]).astype(np.float32)
-    return points, np.where(ground < wall, 4, 0).astype(np.uint8)
+    return points, np.where(ground < wall, GROUND, 0).astype(np.uint8)
 
 
 class Training(unittest.TestCase):
@@ -50,12 +54,12 @@ class Training(unittest.TestCase):
             self.assertEqual(changed.shape[:2], changed_label.shape)
             height = inputs.features(changed)[3] * 0.3
             seen = np.isfinite(changed[..., 0])
-            ground = height[seen & (changed_label == 4)]
+            ground = height[seen & (changed_label == GROUND)]
             self.assertLess(np.median(np.abs(ground)), 0.1)
 
     def test_network_without_normalisation_gives_the_same(self):
         torch.manual_seed(1)
-        model = network.RangeNet(inputs.CHANNELS, 5, (6, 8, 8, 12))
+        model = network.RangeNet(inputs.CHANNELS, 5, (6, 8, 8, 12, 12))
         values = torch.randn(2, inputs.CHANNELS, 16, 64)
         model.train()(values)
         model.eval()
@@ -67,15 +71,31 @@ class Training(unittest.TestCase):
         self.assertEqual(tuple(scores.shape), (2, 5, 3, 8))
         self.assertEqual(scores[1, 2, 1, 5], output[1, 5 + 2, 1, 2])
 
+    def test_outputs_of_one_class_add_up(self):
+        scores = torch.zeros(len(classes.OUTPUTS), 1, 1)
+        probability = evaluation.class_probability(scores)[:, 0, 0]
+        share = [(classes.CLASS_OF == k).mean() for k in range(len(classes.CLASSES))]
+        np.testing.assert_allclose(probability, share, atol=1e-6)
+        both = train.class_scores(scores[None]).softmax(1)[0, :, 0, 0]
+        np.testing.assert_allclose(both, share, atol=1e-6)
+
+    def test_ring_numbers_are_the_rows(self):
+        points, _ = made_scan(16)
+        ring = np.repeat(np.arange(16), 1024)
+        shuffled = np.random.default_rng(1).permutation(len(ring))
+        index, pixel = inputs.project(points.reshape(-1, 3)[shuffled], ring[shuffled])
+        self.assertEqual(index.shape, (16, 1024))
+        np.testing.assert_array_equal(pixel // 1024, ring[shuffled])
+
     def test_loss_falls_on_one_scan(self):
         points, label = made_scan()
         values = torch.from_numpy(inputs.features(points))[None, :, :, :256]
         truth = torch.from_numpy(label.astype(np.int64))[None, :, :256]
         torch.manual_seed(1)
-        model = network.RangeNet(inputs.CHANNELS, len(classes.CLASSES), (8, 8, 8, 8))
+        model = network.RangeNet(inputs.CHANNELS, len(classes.OUTPUTS), (8, 8, 8, 8, 8))
         optimizer = torch.optim.AdamW(model.parameters(), lr=1e-2)
         losses = []
-        for _ in range(8):
+        for _ in range(20):
             loss = train.loss_of(model(values), truth)
             optimizer.zero_grad()
             loss.backward()
@@ -87,7 +107,7 @@ class Training(unittest.TestCase):
         points, label = made_scan()
         with tempfile.TemporaryDirectory() as folder:
             for name, values in (("velodyne/0.bin", np.dstack([points, label]).astype(np.float32)),
-                                 ("labels/0.label", np.where(label == 4, 40, 50).astype(np.uint32))):
+                                 ("labels/0.label", np.where(label == GROUND, 40, 50).astype(np.uint32))):
                 path = pathlib.Path(folder) / name
                 path.parent.mkdir(exist_ok=True)
                 np.roll(values[:, ::-1], -512, 1).tofile(path)

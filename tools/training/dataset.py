@@ -20,6 +20,17 @@ def files(folder):
     return [(p, p.parent.parent / "labels" / (p.stem + ".label")) for p in scans]
 
 
+def held_out(folder, most=40):
+    """The last twentieth of the scans, at most so many: never trained on."""
+    every = files(folder)
+    return every[trained(len(every)):][:most]
+
+
+def trained(count):
+    """How many of the first of so many scans are trained on."""
+    return count - max(1, count // 20)
+
+
 def read_scan(scan, truth):
     """Points (n, 3) and what the network should call them."""
     points = np.fromfile(scan, np.float32).reshape(-1, 4)[:, :3]

@@ -14,12 +14,12 @@ import inputs
 import labels as classes
 import model as network
 
-ROWS, COLUMNS = 10, 48
+ROWS, COLUMNS = 10, 64
 
 
 def random_network(channels):
     torch.manual_seed(1)
-    model = network.RangeNet(channels, len(classes.CLASSES), (6, 8, 8, 12))
+    model = network.RangeNet(channels, len(classes.OUTPUTS), (6, 8, 8, 12, 12))
     for layer in model.modules():
         if isinstance(layer, torch.nn.BatchNorm2d):
             torch.nn.init.normal_(layer.bias, 0, 0.2)
@@ -36,9 +36,9 @@ def main():
     with torch.no_grad():
         scores = network.scores(model(torch.from_numpy(evaluation.padded(values))[None]))[0]
     pad = evaluation.PAD
-    probability = scores[:, :ROWS, pad:pad + COLUMNS].softmax(0).permute(1, 2, 0).contiguous()
+    probability = evaluation.class_probability(scores[:, :ROWS, pad:pad + COLUMNS])
     values.tofile(folder / "features.f32")
-    probability.numpy().tofile(folder / "probabilities.f32")
+    np.ascontiguousarray(probability.transpose(1, 2, 0)).tofile(folder / "probabilities.f32")
     export.export(model, folder / "network.onnx")
 
 

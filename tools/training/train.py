@@ -128,7 +128,7 @@ class Trainer:
 
 def batches(args, first):
     images = dataset.Images(args.scans)
-    chosen = list(range(len(images) - max(1, len(images) // 20)))
+    chosen = list(range(dataset.trained(len(images))))
     data = dataset.Batches(images, chosen, args.batch, args.width, args.seed)
     return torch.utils.data.DataLoader(data, batch_size=None, sampler=range(first, args.steps), num_workers=args.workers,
                                        prefetch_factor=4 if args.workers else 2)
@@ -138,8 +138,7 @@ def run(args):
     args.out.mkdir(parents=True, exist_ok=True)
     torch.set_num_threads(args.threads)
     trainer = Trainer(args)
-    every = dataset.files(args.scans)
-    held_out = every[-max(1, len(every) // 20):][:40]
+    held_out = dataset.held_out(args.scans)
     mean, saved = None, time.time()
     began, before = time.time(), trainer.seconds
     for values, truth in batches(args, trainer.step):
