@@ -1,4 +1,4 @@
-#include "segmentation/rings.h"
+#include "lidar/rings.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "core/rng.h"
 #include "made_scan.h"
 
-namespace saker::segmentation {
+namespace saker::lidar {
 namespace {
 
 using testing::MadeScan;
@@ -16,7 +16,7 @@ using testing::ring_by_ring;
 TEST(Rings, AreFoundAgainInAFileThatGoesRingByRing) {
   const auto file = ring_by_ring(MadeScan{.wall_m = 8}.organised());
   const Rings rings = recover_rings(file.scan.points);
-  ASSERT_TRUE(rings.from_order);
+  ASSERT_EQ(rings.source, RingSource::order);
   const int first = file.row.front();  // rows above the wall's top have no points
   for (std::size_t i = 0; i < file.row.size(); ++i) {
     ASSERT_EQ(rings.of_point[i], file.row[i] - first) << "point " << i;
@@ -28,7 +28,7 @@ TEST(Rings, AreFoundAgainWhereTheFileGoesUpwards) {
   std::reverse(file.scan.points.begin(), file.scan.points.end());
   std::reverse(file.row.begin(), file.row.end());
   const Rings rings = recover_rings(file.scan.points);
-  ASSERT_TRUE(rings.from_order);
+  ASSERT_EQ(rings.source, RingSource::order);
   const int first = file.row.back();
   for (std::size_t i = 0; i < file.row.size(); ++i) {
     ASSERT_EQ(rings.of_point[i], file.row[i] - first) << "point " << i;
@@ -51,23 +51,34 @@ TEST(Rings, AreFoundAgainThoughAThirdOfThePointsIsMissing) {
   EXPECT_LE(wrong, row.size() / 100);
 }
 
-TEST(Rings, AreBinsOfElevationWhereTheOrderSaysNothing) {
-  auto file = ring_by_ring(MadeScan{.wall_m = 8}.organised());
-  core::Rng rng(3);
-  for (std::size_t i = file.scan.size() - 1; i > 0; --i) {
-    std::swap(file.scan.points[i], file.scan.points[rng.index(static_cast<int>(i))]);
-  }
+TEST(Rings, AreBandsOfElevationWhereTheOrderSaysNothing) {
+  const MadeScan sensor{.wall_m = 8, .elevation_deg = uneven_elevations()};
+  const RingFile file = shuffled(ring_by_ring(sensor.organised()), 3);
   const Rings rings = recover_rings(file.scan.points);
-  EXPECT_FALSE(rings.from_order);
-  ASSERT_EQ(rings.count, 64);
-  for (std::size_t i = 1; i < file.scan.size(); ++i) {
-    const auto& a = file.scan.points[i - 1];
-    const auto& b = file.scan.points[i];
-    const bool higher = a.normalized().z() > b.normalized().z() + 1e-4F;
-    if (higher) {
-      ASSERT_LE(rings.of_point[i - 1], rings.of_point[i]);
-    }
+  EXPECT_EQ(rings.source, RingSource::bands);
+  const int first = *std::min_element(file.row.begin(), file.row.end());
+  for (std::size_t i = 0; i < file.row.size(); ++i) {
+    ASSERT_EQ(rings.of_point[i], file.row[i] - first) << "point " << i;
   }
+}
+
+TEST(Rings, AreTheGivenOnesFromTheHighestDown) {
+  const RingFile file = shuffled(ring_by_ring(MadeScan{.rows = 32, .wall_m = 8}.organised()), 5);
+  std::vector<std::uint16_t> given;
+  for (const int row : file.row) given.push_back(static_cast<std::uint16_t>((row * 7) % 32));
+  const Rings rings = recover_rings(file.scan.points, given);
+  ASSERT_EQ(rings.source, RingSource::given);
+  const int first = *std::min_element(file.row.begin(), file.row.end());
+  for (std::size_t i = 0; i < file.row.size(); ++i) {
+    ASSERT_EQ(rings.of_point[i], file.row[i] - first) << "point " << i;
+  }
+}
+
+TEST(Rings, GivenOnesThatNameNoConesDoNotCount) {
+  const RingFile file = shuffled(ring_by_ring(MadeScan{.wall_m = 8}.organised()), 5);
+  std::vector<std::uint16_t> given;
+  for (std::size_t i = 0; i < file.row.size(); ++i) given.push_back(i % 32);
+  EXPECT_EQ(recover_rings(file.scan.points, given).source, RingSource::bands);
 }
 
 TEST(Rings, OfNoFinitePointsAreNone) {
@@ -77,4 +88,4 @@ TEST(Rings, OfNoFinitePointsAreNone) {
 }
 
 }  // namespace
-}  // namespace saker::segmentation
+}  // namespace saker::lidar

@@ -4,12 +4,12 @@
 
 #include <numbers>
 
-#include "made_scan.h"
+#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {
 
-using testing::MadeScan;
+using lidar::testing::MadeScan;
 
 struct Made {
   RangeImage image;

@@ -4,13 +4,13 @@
 
 #include <limits>
 
-#include "made_scan.h"
+#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {
 
-using testing::MadeScan;
-using testing::ring_by_ring;
+using lidar::testing::MadeScan;
+using lidar::testing::ring_by_ring;
 
 RangeImage image_of(const lidar::Scan& scan) {
   RangeImage image;
@@ -60,6 +60,17 @@ TEST(RangeImage, OfTheFileIsThatOfTheOrganisedScan) {
   ASSERT_EQ(recovered.size() + skipped, organised.size());
   for (std::size_t i = 0; i < recovered.size(); ++i) {
     ASSERT_EQ(recovered.range[i], organised.range[i + skipped]) << "pixel " << i;
+  }
+}
+
+TEST(RangeImage, HasNoEmptyRowHoweverUnevenlyTheBeamsLie) {
+  const MadeScan sensor{.wall_m = 8, .elevation_deg = lidar::testing::uneven_elevations()};
+  const auto file = shuffled(ring_by_ring(sensor.organised()), 2);
+  const RangeImage image = image_of(file.scan);
+  for (int row = 0; row < image.rows; ++row) {
+    int seen = 0;
+    for (int c = 0; c < image.columns; ++c) seen += image.valid(row * image.columns + c);
+    EXPECT_GT(seen, image.columns * 9 / 10) << "row " << row;
   }
 }
 

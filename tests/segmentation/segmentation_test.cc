@@ -7,13 +7,13 @@
 
 #include "core/config_folder.h"
 #include "core/error.h"
-#include "made_scan.h"
+#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::MadeScan;
+using lidar::testing::MadeScan;
 
 /// Share of the points chosen by `chosen` that have the class.
 template <class Chosen>
@@ -35,7 +35,7 @@ class ShippedModel : public ::testing::Test {
 
 TEST_F(ShippedModel, TellsTheGroundFromAWallInAnyFormOfScan) {
   const lidar::Scan organised = MadeScan{}.organised();
-  const std::vector<lidar::Scan> scans = {organised, testing::ring_by_ring(organised).scan,
+  const std::vector<lidar::Scan> scans = {organised, lidar::testing::ring_by_ring(organised).scan,
                                           MadeScan{.rows = 128, .columns = 2048}.organised(),
                                           MadeScan{.rows = 32, .columns = 512}.organised()};
   const std::uint8_t ground = table_.find("ground");

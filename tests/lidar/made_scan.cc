@@ -1,10 +1,12 @@
-#include "made_scan.h"
+#include "lidar/made_scan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace saker::segmentation::testing {
+#include "core/rng.h"
+
+namespace saker::lidar::testing {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -21,13 +23,13 @@ float cast(const Eigen::Vector3f& ray, float height, float wall) {
 
 }  // namespace
 
-lidar::Scan MadeScan::organised() const {
-  lidar::Scan scan;
+Scan MadeScan::organised() const {
+  Scan scan;
   scan.rows = rows;
   scan.columns = columns;
   for (int row = 0; row < rows; ++row) {
-    const float elevation =
-        (15 - 40 * static_cast<float>(row) / static_cast<float>(rows - 1)) * kPi / 180;
+    const float even = 15 - 40 * static_cast<float>(row) / static_cast<float>(rows - 1);
+    const float elevation = (elevation_deg.empty() ? even : elevation_deg[row]) * kPi / 180;
     for (int column = 0; column < columns; ++column) {
       const float azimuth =
           kPi - 2 * kPi * (static_cast<float>(column) + 0.5F) / static_cast<float>(columns);
@@ -41,7 +43,25 @@ lidar::Scan MadeScan::organised() const {
   return scan;
 }
 
-RingFile ring_by_ring(const lidar::Scan& organised) {
+std::vector<float> uneven_elevations() {
+  std::vector<float> elevation = {15, 11, 8, 5, 3};
+  for (int k = 0; k < 49; ++k) elevation.push_back(2 - static_cast<float>(k) / 6);
+  for (const float low : {-7.F, -8.F, -9.F, -10.F, -11.F, -12.F, -13.F, -14.F, -19.F, -25.F})
+    elevation.push_back(low);
+  return elevation;
+}
+
+RingFile shuffled(RingFile file, std::uint64_t seed) {
+  core::Rng rng(seed);
+  for (std::size_t i = file.row.size() - 1; i > 0; --i) {
+    const auto other = static_cast<std::size_t>(rng.index(static_cast<int>(i) + 1));
+    std::swap(file.scan.points[i], file.scan.points[other]);
+    std::swap(file.row[i], file.row[other]);
+  }
+  return file;
+}
+
+RingFile ring_by_ring(const Scan& organised) {
   RingFile file;
   const int columns = organised.columns, half = columns / 2;
   for (int row = 0; row < organised.rows; ++row) {
@@ -58,4 +78,4 @@ RingFile ring_by_ring(const lidar::Scan& organised) {
   return file;
 }
 
-}  // namespace saker::segmentation::testing
+}  // namespace saker::lidar::testing
