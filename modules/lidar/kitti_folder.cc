@@ -36,11 +36,14 @@ fs::path scan_folder(const fs::path& folder) {
   return fs::is_directory(folder / "velodyne", ignored) ? folder / "velodyne" : folder;
 }
 
+fs::path parent_of(const fs::path& scans) {
+  const fs::path whole = fs::absolute(scans).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).parent_path();
+}
+
 fs::path times_file(const fs::path& scans) {
   std::error_code ignored;
-  const fs::path beside = fs::absolute(scans).lexically_normal();
-  const fs::path parent = (beside.has_filename() ? beside : beside.parent_path()).parent_path();
-  for (const fs::path& file : {scans / "times.txt", parent / "times.txt"}) {
+  for (const fs::path& file : {scans / "times.txt", parent_of(scans) / "times.txt"}) {
     if (fs::is_regular_file(file, ignored)) return file;
   }
   return {};
@@ -99,6 +102,30 @@ std::string read_floats(const fs::path& file, std::vector<float>& buffer) {
   return in ? "" : "cannot be read";
 }
 
+/// Ring numbers of one scan, if the folder has them. \return the fault, or empty
+template <class Number>
+std::string take_rings(const fs::path& file, Scan& scan) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<Number> numbers(scan.size());
+  const auto bytes = static_cast<std::streamsize>(numbers.size() * sizeof(Number));
+  in.read(reinterpret_cast<char*>(numbers.data()), bytes);
+  if (in.gcount() != bytes || in.peek() != std::ifstream::traits_type::eof()) {
+    return "ring/" + file.filename().string() + " does not hold " + std::to_string(scan.size()) +
+           " ring numbers, one a point";
+  }
+  scan.ring.assign(numbers.begin(), numbers.end());
+  return "";
+}
+
+std::string read_rings(const fs::path& folder, const std::string& stem, Scan& scan) {
+  std::error_code ignored;
+  if (folder.empty()) return "";
+  const fs::path bytes = folder / (stem + ".u8"), words = folder / (stem + ".u16");
+  if (fs::is_regular_file(bytes, ignored)) return take_rings<std::uint8_t>(bytes, scan);
+  if (fs::is_regular_file(words, ignored)) return take_rings<std::uint16_t>(words, scan);
+  return "";
+}
+
 void fill(const std::vector<float>& floats, Scan& scan) {
   const std::size_t points = floats.size() / kFloatsAPoint;
   scan.points.reserve(points);
@@ -120,6 +147,8 @@ KittiFolder::KittiFolder(const fs::path& folder) {
     throw Error(folder.string() + ": no scans, expected *.bin in it or in velodyne/");
   }
   times_ = times_of(scans, files_.size());
+  std::error_code ignored;
+  if (fs::is_directory(parent_of(scans) / "ring", ignored)) rings_ = parent_of(scans) / "ring";
 }
 
 std::optional<Frame> KittiFolder::next() {
@@ -135,6 +164,11 @@ std::optional<Frame> KittiFolder::next() {
     return frame;
   }
   fill(buffer_, frame.scan);
+  frame.fault = read_rings(rings_, frame.name, frame.scan);
+  if (!frame.fault.empty()) {
+    ++counters_.faulty_scans;
+    frame.scan = {.stamp = frame.scan.stamp};
+  }
   return frame;
 }
 

@@ -9,8 +9,9 @@ namespace saker::lidar {
 
 /// A folder of KITTI scans: `*.bin` in it or in `velodyne/`, by name; x, y, z, remission as floats.
 /// Times come from `times.txt` in the folder or beside it (seconds, a line a scan), else 10 Hz;
-/// points have no times of their own. A file that is no whole number of points, holds none or
-/// cannot be read is a frame with a fault.
+/// points have no times of their own. Ring numbers come from `ring/STEM.u8` or `ring/STEM.u16` beside
+/// the scans' folder, where they are there. A file that is no whole number of points, holds none or
+/// cannot be read, or whose ring numbers are not one a point, is a frame with a fault.
 class KittiFolder : public ScanSource {
  public:
   /// Throws Error when there are no scans, or `times.txt` does not fit them.
@@ -23,6 +24,7 @@ class KittiFolder : public ScanSource {
 
  private:
   std::vector<std::filesystem::path> files_;
+  std::filesystem::path rings_;  ///< folder of ring numbers, or empty
   std::vector<Time> times_;
   std::vector<float> buffer_;
   std::size_t next_ = 0;

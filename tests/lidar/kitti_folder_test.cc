@@ -75,6 +75,30 @@ TEST(KittiFolder, ABadScanIsAFaultAndTheRecordingGoesOn) {
   EXPECT_EQ(source.counters().faulty_scans, 3);
 }
 
+/// A recording of one scan of two points with these bytes as its ring numbers.
+std::optional<Frame> with_rings(const TemporaryFolder& folder, const std::string& bytes) {
+  for (const char* part : {"velodyne", "ring"})
+    std::filesystem::create_directory(folder / part);
+  write_floats(folder / "velodyne/000000.bin", kTwoPoints);
+  write_text(folder / "ring/000000.u8", bytes);
+  return KittiFolder(folder.path()).next();
+}
+
+TEST(KittiFolder, TakesRingNumbersFromBesideIt) {
+  const TemporaryFolder folder;
+  const auto frame = with_rings(folder, "\x05\x1f");
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->scan.ring, (std::vector<std::uint16_t>{5, 31}));
+}
+
+TEST(KittiFolder, RingNumbersThatAreNotOneAPointAreAFault) {
+  const TemporaryFolder folder;
+  const auto frame = with_rings(folder, "\x05");
+  ASSERT_TRUE(frame);
+  EXPECT_NE(frame->fault.find("2 ring numbers"), std::string::npos) << frame->fault;
+  EXPECT_TRUE(frame->scan.points.empty());
+}
+
 TEST(KittiFolder, PassesPointsThatAreNotFiniteOnInTheirPlace) {
   const TemporaryFolder folder;
   write_floats(folder / "0.bin", {NAN, 0, INFINITY, NAN, 1, 2, 3, 0.5F});
