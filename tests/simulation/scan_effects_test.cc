@@ -88,7 +88,8 @@ TEST_F(ScanEffectsTest, RainAnswersNearTheSensorAndCountsAsNothing) {
   const CastScan scan = with(effects, unit(SensorChoice::hdl_32e));
   EXPECT_GT(outliers(scan), 300);
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
-    if (scan.range_m[i] > 0 && scan.labels[i] == kOutlier) EXPECT_LT(scan.range_m[i], 50);
+    if (scan.range_m[i] <= 0 || scan.labels[i] != kOutlier) continue;
+    EXPECT_LT(scan.range_m[i], 50);
   }
 }
 
@@ -152,7 +153,8 @@ TEST_F(ScanEffectsTest, SecondReturnsComeFromBehindEdges) {
   EXPECT_GT(both.size(), single.size());
   for (std::size_t k = 1; k < both.size(); ++k) {
     const bool same_beam = both[k].ring == both[k - 1].ring && both[k].column == both[k - 1].column;
-    if (same_beam) EXPECT_GT(both[k].position.norm(), both[k - 1].position.norm() + 0.9F);
+    if (!same_beam) continue;
+    EXPECT_GT(both[k].position.norm(), both[k - 1].position.norm() + 0.9F);
   }
 }
 
