@@ -29,7 +29,6 @@ enum class Paint {
 /// SemanticKITTI's ids.
 enum Label : std::uint16_t {
   kUnlabelled = 0,
-  kOutlier = 1,  ///< no surface: rain, dust, ghosts
   kCar = 10,
   kBicycle = 11,
   kBus = 13,

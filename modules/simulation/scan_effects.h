@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "simulation/mount.h"
-#include "simulation/sensor_model.h"
+#include "simulation/scan_points.h"
 
 /// What happens to a revolution between the surfaces and the file.
 ///

@@ -10,6 +10,9 @@
 /// Reads a cast scan. Frames: that of the scan's points until `move_points`.
 namespace saker::simulation {
 
+/// SemanticKITTI's id of returns from no surface: rain, dust, ghosts. It counts as no class.
+inline constexpr std::uint16_t kOutlier = 1;
+
 struct ScanPoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   float reflectivity = 0;

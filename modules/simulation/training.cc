@@ -30,6 +30,7 @@ struct FileKind {
   int packet_columns = 12;
   bool compensated = true;
   bool in_vehicle_frame = false;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of that frame in the vehicle's
 };
 
 FileKind any_file(core::Rng& rng) {
@@ -38,6 +39,8 @@ FileKind any_file(core::Rng& rng) {
   file.packet_columns = 2 + rng.index(24);
   file.compensated = !rng.chance(kRaw);
   file.in_vehicle_frame = rng.chance(kVehicleFrame);
+  file.origin.x() = rng.uniform(-1.6, 0.4);
+  file.origin.z() = rng.uniform(0, 0.4);
   return file;
 }
 
@@ -56,14 +59,17 @@ std::string line_of(const SensorUnit& unit, const Mount& mount, const FileKind& 
   return line;
 }
 
-/// The points as the file has them: compensated or not, in the sensor's or the vehicle's frame.
+/// The points as the file has them: compensated or not, in the sensor's frame or the vehicle's.
 void finish_points(const ScanSetting& setting, const FileKind& file, core::Rng& rng,
                    TrainingScan& out) {
   const int columns = setting.unit->beams.columns;
   const Mount& mount = *setting.mount;
   put_in_order(file.order, setting.unit->beams.rows, file.packet_columns, rng, out.points);
   out.T_world_scan = mount.pose(0);
-  if (file.in_vehicle_frame) out.T_world_scan = out.T_world_scan * mount.T_vehicle_lidar.inverse();
+  if (file.in_vehicle_frame) {
+    out.T_world_scan = out.T_world_scan * mount.T_vehicle_lidar.inverse() *
+                       placed(file.origin.x(), file.origin.y(), file.origin.z());
+  }
   const SE3 T_scan_world = out.T_world_scan.inverse();
   const SE3 T_scan_lidar = T_scan_world * mount.pose(0);
   if (!file.compensated && !file.in_vehicle_frame) return;
