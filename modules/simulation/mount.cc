@@ -79,22 +79,27 @@ Vector6d any_twist(MountKind kind, const Habit& habit, core::Rng& rng) {
   return twist;
 }
 
+/// How far below the sensor an edge `away` lies, so that it hides what is steeper than 14° to 37°:
+/// sensors are mounted to see over their carrier.
+double clear_drop(double away, core::Rng& rng) { return away * rng.uniform(0.25, 0.75); }
+
 /// Roof, bonnet and sides of a car whose roof is below the sensor.
 std::vector<BodyBox> car_body(double height, core::Rng& rng) {
-  const double roof = height - rng.uniform(0.08, 0.45);
-  const double ahead = rng.uniform(0.3, 1.3);
-  const double waist = rng.uniform(0.85, 1.1);
+  const double ahead = rng.uniform(0.4, 1.1);
+  const double behind = rng.uniform(0.5, 1.6);
+  const double roof = height - clear_drop(std::max(ahead, behind), rng);
+  const double waist = rng.uniform(0.75, 1.0);
   const double half_width = rng.uniform(0.82, 0.98);
-  return {{{ahead - rng.uniform(1.6, 2.8), -0.72 * half_width, waist},
-           {ahead, 0.72 * half_width, roof}},
-          {{ahead - rng.uniform(3.2, 3.7), -half_width, 0.3},
-           {ahead + rng.uniform(1.2, 1.7), half_width, waist}}};
+  return {{{-behind, -0.72 * half_width, waist}, {ahead, 0.72 * half_width, roof}},
+          {{-behind - rng.uniform(0.3, 1.2), -half_width, 0.3},
+           {ahead + rng.uniform(0.9, 1.5), half_width, waist}}};
 }
 
+/// The box is long behind: it hides what is low there.
 std::vector<BodyBox> truck_body(double height, core::Rng& rng) {
-  const double ahead = rng.uniform(0.1, 0.9);
-  return {
-      {{ahead - rng.uniform(5, 11), -1.25, 0.5}, {ahead, 1.25, height - rng.uniform(0.1, 0.5)}}};
+  const double ahead = rng.uniform(0.2, 0.9);
+  const double drop = clear_drop(ahead, rng);
+  return {{{ahead - rng.uniform(5, 11), -1.25, 0.5}, {ahead, 1.25, height - drop}}};
 }
 
 std::vector<BodyBox> robot_body(double height, core::Rng& rng) {
