@@ -1,5 +1,6 @@
 #include "simulation/mount.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
