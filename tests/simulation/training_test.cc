@@ -56,9 +56,9 @@ TEST(Training, TwoRunsAreByteIdenticalAndAnotherSeedIsNot) {
 }
 
 TEST(Training, ScansHoldFinitePointsAndTheClassesThatAreLearned) {
-  const auto folder = scans("training_d", 3);
+  const auto folder = scans("training_d", 3, {.worlds = 3, .scans_per_world = 2});
   std::map<std::uint32_t, int> count;
-  for (const char* name : {"000000", "000001", "000002"}) {
+  for (const char* name : {"000000", "000001", "000002", "000003", "000004", "000005"}) {
     const std::string points = core::read_file(folder / "velodyne" / (std::string(name) + ".bin"));
     const std::string labels = core::read_file(folder / "labels" / (std::string(name) + ".label"));
     ASSERT_EQ(points.size(), 4 * labels.size());
