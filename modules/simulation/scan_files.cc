@@ -26,6 +26,12 @@ std::string name_of_scan(std::size_t index) {
   return name;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder.string() + ": cannot be made: " + error.message());
+}
+
 /// Camera axes: x right, y down, z forward.
 SE3 T_camera_lidar() {
   SE3 T = SE3::Identity();
@@ -65,11 +71,7 @@ std::vector<std::size_t> ring_order(const CastScan& scan) {
 }
 
 LabelledScanWriter::LabelledScanWriter(const std::filesystem::path& folder) : folder_(folder) {
-  std::error_code error;
-  for (const char* part : {"velodyne", "labels"}) {
-    std::filesystem::create_directories(folder / part, error);
-    if (error) throw Error((folder / part).string() + ": cannot be made: " + error.message());
-  }
+  for (const char* part : {"velodyne", "labels"}) make_folder(folder / part);
 }
 
 void LabelledScanWriter::write(const CastScan& scan, const SE3& T_world_lidar, Time stamp) {
@@ -80,10 +82,31 @@ void LabelledScanWriter::write(const CastScan& scan, const SE3& T_world_lidar, T
     points.insert(points.end(), {p.x(), p.y(), p.z(), scan.reflectivity[i]});
     labels.push_back(static_cast<std::uint32_t>(scan.objects[i]) << 16 | scan.labels[i]);
   }
+  write(points, labels, T_world_lidar, stamp);
+}
+
+void LabelledScanWriter::write(const std::vector<ScanPoint>& points, const SE3& T_world_scan,
+                               Time stamp) {
+  std::vector<float> values;
+  std::vector<std::uint32_t> labels;
+  std::vector<std::uint16_t> rings;
+  for (const ScanPoint& p : points) {
+    values.insert(values.end(), {p.position.x(), p.position.y(), p.position.z(), p.reflectivity});
+    labels.push_back(static_cast<std::uint32_t>(p.object) << 16 | p.label);
+    rings.push_back(p.ring);
+  }
+  make_folder(folder_ / "ring");
+  write_file(folder_ / "ring" / (name_of_scan(poses_.size()) + ".u16"), rings);
+  write(values, labels, T_world_scan, stamp);
+}
+
+void LabelledScanWriter::write(const std::vector<float>& points,
+                               const std::vector<std::uint32_t>& labels, const SE3& T_world_scan,
+                               Time stamp) {
   const std::string name = name_of_scan(poses_.size());
   write_file(folder_ / "velodyne" / (name + ".bin"), points);
   write_file(folder_ / "labels" / (name + ".label"), labels);
-  poses_.push_back(T_world_lidar);
+  poses_.push_back(T_world_scan);
   times_.push_back(stamp);
 }
 

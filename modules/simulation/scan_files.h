@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "simulation/scanner.h"
+#include "simulation/scan_points.h"
 
 namespace saker::simulation {
 
@@ -18,10 +18,16 @@ class LabelledScanWriter {
   explicit LabelledScanWriter(const std::filesystem::path& folder);
 
   void write(const CastScan& scan, const SE3& T_world_lidar, Time stamp);
+  /// The same of points in an order of their own, with ring/NNNNNN.u16 (uint16: the point's ring, 0
+  /// the highest beam) beside it. `T_world_scan`: of the frame that the points are in.
+  void write(const std::vector<ScanPoint>& points, const SE3& T_world_scan, Time stamp);
   /// poses.txt, times.txt and calib.txt; call it once after the last scan.
   void finish() const;
 
  private:
+  void write(const std::vector<float>& points, const std::vector<std::uint32_t>& labels,
+             const SE3& T_world_scan, Time stamp);
+
   std::filesystem::path folder_;
   std::vector<SE3> poses_;
   std::vector<Time> times_;

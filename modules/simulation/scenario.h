@@ -4,6 +4,7 @@
 #include "simulation/mission_config.h"
 #include "simulation/scanner.h"
 #include "simulation/sensor_config.h"
+#include "simulation/sensor_model.h"
 
 namespace saker::simulation {
 
@@ -18,7 +19,7 @@ struct TrainingConfig {
   WorldKind world = WorldKind::mixed;
   int worlds = 400;
   int scans_per_world = 5;
-  double hdl64_share = 0.6;
+  SensorChoice sensor = SensorChoice::mixed;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -26,8 +27,8 @@ struct TrainingConfig {
     v.field("worlds", worlds, {1, 100000}, "", "worlds, each built anew");
     v.field("scans_per_world", scans_per_world, {1, 1000}, "",
             "scans of each world, from other places and heights");
-    v.field("hdl64_share", hdl64_share, {0, 1}, "",
-            "share of scans of an HDL-64E on a car; the others are an OS1-64's at 0.8 to 12 m");
+    v.field("sensor", sensor, "",
+            "mixed: another in each scan; or one for all: the same worlds from the same places");
   }
 };
 

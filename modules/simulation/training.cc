@@ -1,106 +1,167 @@
 #include "simulation/training.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+#include <cstdio>
+#include <future>
 
+#include "core/files.h"
+#include "simulation/scan_effects.h"
 #include "simulation/scan_files.h"
-#include "simulation/world_builder.h"
 
 namespace saker::simulation {
 namespace {
 
-SE3 tilted(const SE3& T, double roll, double pitch) {
-  SE3 tilt = SE3::Identity();
-  tilt.linear() = (Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-                   Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-                      .toRotationMatrix();
-  return T * tilt;
-}
+/// Streams of a scan. Each is its own, so that another sensor changes neither place nor weather.
+enum Stream : std::uint64_t { kMount, kWeather, kSensor, kEffects, kFile, kStreams };
 
-Eigen::Vector2d any_place(const BuiltWorld& built, core::Rng& rng) {
-  if (built.free_places.empty()) return Eigen::Vector2d::Zero();
-  return built.free_places[rng.index(static_cast<int>(built.free_places.size()))];
-}
-
-/// On the roof of a car that stands on the road.
-SE3 pose_on_car(const BuiltWorld& built, core::Rng& rng) {
-  const Eigen::Vector2d place = any_place(built, rng);
-  const double yaw = (rng.chance(0.5) ? 0 : std::numbers::pi) + rng.normal(0, 0.15);
-  const SE3 T_world_ground = built.terrain.on_ground(place.x(), place.y(), yaw);
-  const double height = rng.chance(0.7) ? rng.normal(1.73, 0.04) : rng.uniform(1.4, 2.3);
-  const double roll = rng.normal(0, 0.01);
-  return tilted(T_world_ground * placed(0, 0, height), roll, rng.normal(0, 0.012));
-}
-
-/// Below a vehicle that flies, or in a hand.
-SE3 pose_in_air(const BuiltWorld& built, core::Rng& rng) {
-  const Eigen::Vector2d place = any_place(built, rng);
-  const double height = 0.8 * std::exp(rng.uniform() * std::log(12 / 0.8));
-  const SE3 T =
-      built.terrain.upright(place.x(), place.y(), rng.uniform(-std::numbers::pi, std::numbers::pi));
-  const double roll = rng.normal(0, 0.09);
-  return tilted(T * placed(0, 0, height), roll, rng.normal(0, 0.09));
-}
+constexpr double kWetShare = 0.15;  ///< of the worlds
+constexpr double kVehicleFrame =
+    0.06;                      ///< share of scans with the origin on the ground, as some publish
+constexpr double kRaw = 0.35;  ///< of the scans that are not compensated for motion
 
 std::uint64_t world_seed(const core::Rng& base, int world) {
   return static_cast<std::uint64_t>(base.fork(2 * static_cast<std::uint64_t>(world) + 1).uniform() *
                                     1e15);
 }
 
-struct Sensor {
-  BeamTable beams;
-  ReceiverConfig receiver;
+/// How a scan was written.
+struct FileKind {
+  PointOrder order = PointOrder::rings;
+  int packet_columns = 12;
+  bool compensated = true;
+  bool in_vehicle_frame = false;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of that frame in the vehicle's
 };
 
-Sensor hdl64(core::Rng& rng) { return {hdl64_beams(rng), hdl64_receiver()}; }
-
-Sensor os1() {
-  return {ouster_beams(lidar::SensorInfo::make_os1(64, 1024, lidar::PacketProfile::kLegacy)), {}};
+FileKind any_file(core::Rng& rng) {
+  FileKind file;
+  file.order = static_cast<PointOrder>(rng.index(3));
+  file.packet_columns = 2 + rng.index(24);
+  file.compensated = !rng.chance(kRaw);
+  file.in_vehicle_frame = rng.chance(kVehicleFrame);
+  file.origin.x() = rng.uniform(-1.6, 0.4);
+  file.origin.z() = rng.uniform(0, 0.4);
+  return file;
 }
 
-/// Blanks what the car under the sensor hides: a few patches of the lowest beams.
-void hide_own_car(CastScan& scan, core::Rng& rng) {
-  const int patches = rng.index(8);
-  for (int k = 0; k < patches; ++k) {
-    const double column = rng.uniform(0, scan.columns);
-    const double row = scan.rows * rng.uniform(0.78, 1.02);
-    const double half_width = scan.columns * rng.uniform(0.008, 0.05);
-    const double half_height = scan.rows * rng.uniform(0.06, 0.16);
-    for (int i = 0; i < scan.rows; ++i) {
-      const double up = (i - row) / half_height;
-      if (std::abs(up) >= 1) continue;
-      const double ragged = half_width * std::sqrt(1 - up * up) * rng.uniform(0.8, 1.2);
-      for (int c = static_cast<int>(column - ragged); c < column + ragged; ++c) {
-        const int wrapped = (c + scan.columns) % scan.columns;
-        scan.range_m[static_cast<std::size_t>(i) * scan.columns + wrapped] = 0;
-      }
-    }
+struct TrainingScan {
+  std::vector<ScanPoint> points;
+  SE3 T_world_scan = SE3::Identity();
+  std::string line;  ///< of sensors.csv, without the scan's name
+};
+
+std::string line_of(const SensorUnit& unit, const Mount& mount, const FileKind& file) {
+  char line[160];
+  std::snprintf(line, sizeof(line), "%s,%s,%.2f,%.2f,%s,%s,%s", unit.name.c_str(),
+                name_of(mount.kind), mount.height_m, mount.speed_mps(),
+                file.compensated ? "compensated" : "raw",
+                file.in_vehicle_frame ? "vehicle" : "lidar", name_of(file.order));
+  return line;
+}
+
+/// The points as the file has them: compensated or not, in the sensor's frame or the vehicle's.
+void finish_points(const ScanSetting& setting, const FileKind& file, core::Rng& rng,
+                   TrainingScan& out) {
+  const int columns = setting.unit->beams.columns;
+  const Mount& mount = *setting.mount;
+  put_in_order(file.order, setting.unit->beams.rows, file.packet_columns, rng, out.points);
+  out.T_world_scan = mount.pose(0);
+  if (file.in_vehicle_frame) {
+    out.T_world_scan = out.T_world_scan * mount.T_vehicle_lidar.inverse() *
+                       placed(file.origin.x(), file.origin.y(), file.origin.z());
   }
+  const SE3 T_scan_world = out.T_world_scan.inverse();
+  const SE3 T_scan_lidar = T_scan_world * mount.pose(0);
+  if (!file.compensated && !file.in_vehicle_frame) return;
+  move_points(
+      [&](int column) {
+        return file.compensated ? T_scan_world * setting.T_world_lidar(column) : T_scan_lidar;
+      },
+      columns, out.points);
 }
+
+TrainingScan make_scan(const TrainingConfig& config, const BuiltWorld& built,
+                       const RayCaster& caster, const core::Rng& base) {
+  core::Rng mount_rng = base.fork(kMount);
+  core::Rng weather_rng = base.fork(kWeather);
+  core::Rng sensor_rng = base.fork(kSensor);
+  core::Rng effects_rng = base.fork(kEffects);
+  core::Rng file_rng = base.fork(kFile);
+  const Mount mount = any_mount(built, mount_rng);
+  ScanEffects effects = any_weather(mount, weather_rng);
+  const SensorUnit unit = make_unit(any_sensor(config.sensor, sensor_rng), sensor_rng);
+  add_sensor_effects(unit, effects, effects_rng);
+  const FileKind file = any_file(file_rng);
+
+  const int columns = unit.beams.columns;
+  const auto pose = [&](int column) {
+    return mount.pose((static_cast<double>(column) / columns - 0.5) * unit.period_s);
+  };
+  const Scanner scanner(caster, built.world, unit.beams, unit.receiver,
+                        static_cast<std::uint64_t>(sensor_rng.index(1 << 30)));
+  CastScan scan = scanner.cast(pose, 0);
+  const ScanSetting setting{&caster, &built.world, &unit, &mount, pose};
+  apply_effects(effects, setting, effects_rng, scan);
+  TrainingScan out;
+  out.points = points_of(scan, unit, effects.echo_share, effects_rng);
+  out.line = line_of(unit, mount, file);
+  finish_points(setting, file, file_rng, out);
+  return out;
+}
+
+/// What is written, scan after scan.
+class TrainingWriter {
+ public:
+  explicit TrainingWriter(const std::filesystem::path& folder) : folder_(folder), scans_(folder) {}
+
+  void write(const TrainingScan& scan) {
+    scans_.write(scan.points, scan.T_world_scan, from_seconds(0.1 * done_));
+    char name[16];
+    std::snprintf(name, sizeof(name), "%06d,", done_);
+    table_ += name + scan.line + "\n";
+    ++done_;
+  }
+
+  void finish() const {
+    scans_.finish();
+    core::write_file(folder_ / "sensors.csv", table_);
+  }
+
+  [[nodiscard]] int done() const { return done_; }
+
+ private:
+  std::filesystem::path folder_;
+  LabelledScanWriter scans_;
+  std::string table_ = "name,sensor,mount,height_m,speed_mps,motion,frame,order\n";
+  int done_ = 0;
+};
 
 }  // namespace
 
 void write_training_scans(const TrainingConfig& config, std::uint64_t seed,
-                          const std::filesystem::path& folder, const Progress& progress) {
+                          const std::filesystem::path& folder, const Progress& progress,
+                          int threads) {
   const TrainingConfig c = core::checked(config, "training");
-  LabelledScanWriter writer(folder);
+  TrainingWriter writer(folder);
   const core::Rng base(seed);
-  int done = 0;
   for (int w = 0; w < c.worlds; ++w) {
-    const BuiltWorld built = build_world(c.world, world_seed(base, w));
+    const core::Rng of_world = base.fork(2 * static_cast<std::uint64_t>(w));
+    BuiltWorld built = build_world(c.world, world_seed(base, w));
+    core::Rng ground_rng = of_world.fork(0);
+    if (ground_rng.chance(kWetShare)) wet_ground(built.world, ground_rng.uniform(0.3, 1));
     const RayCaster caster(built.world);
-    core::Rng rng = base.fork(2 * w);
-    for (int k = 0; k < c.scans_per_world; ++k) {
-      const bool on_car = rng.chance(c.hdl64_share);
-      const SE3 T_world_lidar = on_car ? pose_on_car(built, rng) : pose_in_air(built, rng);
-      Sensor sensor = on_car ? hdl64(rng) : os1();
-      const Scanner scanner(caster, built.world, std::move(sensor.beams), sensor.receiver,
-                            static_cast<std::uint64_t>(rng.index(1 << 30)));
-      CastScan scan = scanner.cast([&](int) { return T_world_lidar; }, k);
-      if (on_car) hide_own_car(scan, rng);
-      writer.write(scan, T_world_lidar, from_seconds(0.1 * done));
-      ++done;
-      if (progress) progress(done, c.worlds * c.scans_per_world);
+    const auto scan = [&](int k) {
+      return make_scan(c, built, caster, of_world.fork(1 + static_cast<std::uint64_t>(k)));
+    };
+    for (int first = 0; first < c.scans_per_world; first += threads) {
+      std::vector<std::future<TrainingScan>> ready;
+      for (int k = first; k < std::min(first + threads, c.scans_per_world); ++k)
+        ready.push_back(
+            std::async(threads > 1 ? std::launch::async : std::launch::deferred, scan, k));
+      for (std::future<TrainingScan>& result : ready) {
+        writer.write(result.get());
+        if (progress) progress(writer.done(), c.worlds * c.scans_per_world);
+      }
     }
   }
   writer.finish();

@@ -34,7 +34,8 @@ int simulate_scans(const SimulateOptions& options, const CommonOptions& common) 
   if (scenario.kind == simulation::ScenarioKind::flight) {
     simulation::write_flight(scenario.flight, common.seed, out.path(), progress);
   } else {
-    simulation::write_training_scans(scenario.training, common.seed, out.path(), progress);
+    simulation::write_training_scans(scenario.training, common.seed, out.path(), progress,
+                                     common.threads);
   }
   return 0;
 }

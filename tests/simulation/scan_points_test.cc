@@ -1,0 +1,69 @@
+#include "simulation/scan_points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace saker::simulation {
+namespace {
+
+std::vector<ScanPoint> grid(int rows, int columns) {
+  std::vector<ScanPoint> points;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double azimuth = 1 - 2 * M_PI * column / columns;
+      ScanPoint p;
+      p.position = {static_cast<float>(10 * std::cos(azimuth)),
+                    static_cast<float>(10 * std::sin(azimuth)), static_cast<float>(-row)};
+      p.ring = static_cast<std::uint16_t>(row);
+      p.column = column;
+      p.part = row % 2;
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
+TEST(ScanPoints, RingsStayTogetherAndTurnLeftwards) {
+  core::Rng rng(1);
+  std::vector<ScanPoint> points = grid(4, 100);
+  put_in_order(PointOrder::rings, 4, 12, rng, points);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k].ring != points[k - 1].ring) continue;
+    EXPECT_GT(std::atan2(points[k].position.y(), points[k].position.x()),
+              std::atan2(points[k - 1].position.y(), points[k - 1].position.x()));
+  }
+}
+
+TEST(ScanPoints, FiringsRunColumnByColumnInOneOrderOfRows) {
+  core::Rng rng(1);
+  std::vector<ScanPoint> points = grid(8, 50);
+  put_in_order(PointOrder::firings, 8, 12, rng, points);
+  for (std::size_t k = 4; k < points.size() / 2; ++k) {
+    EXPECT_EQ(points[k].column, points[k - 4].column + 1);
+    EXPECT_EQ(points[k].ring, points[k - 4].ring);
+  }
+}
+
+TEST(ScanPoints, StackedSensorsFollowEachOtherAndNoPointIsLost) {
+  for (const PointOrder order : {PointOrder::rings, PointOrder::firings, PointOrder::packets}) {
+    core::Rng rng(2);
+    std::vector<ScanPoint> points = grid(8, 50);
+    put_in_order(order, 8, 6, rng, points);
+    EXPECT_EQ(points.size(), 400U);
+    EXPECT_TRUE(std::is_sorted(points.begin(), points.end(), [](const auto& a, const auto& b) {
+      return a.part < b.part;
+    })) << name_of(order);
+  }
+}
+
+TEST(ScanPoints, CompensationPutsAMovingWallBackInPlace) {
+  std::vector<ScanPoint> points = grid(1, 100);
+  for (ScanPoint& p : points)  // a wall at x = 50 seen while driving 2 m towards it
+    p.position = {static_cast<float>(50 - 0.02 * p.column), 0, 0};
+  move_points([](int column) { return placed(0.02 * column, 0, 0); }, 100, points);
+  for (const ScanPoint& p : points) EXPECT_NEAR(p.position.x(), 50, 1e-4);
+}
+
+}  // namespace
+}  // namespace saker::simulation
