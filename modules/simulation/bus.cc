@@ -88,7 +88,8 @@ void draw_inside(const Pen& pen, const Shell& s, double floor, const Parts& part
     }
   }
   for (const double x : s.axles) {
-    draw.box({x - 0.55, -w + 0.4, s.heights.low}, {x + 0.55, w - 0.4, floor}, parts.dark);
+    draw.box({x - 0.55, -w + 0.4, s.heights.low},
+             {x + 0.55, w - 0.4, std::max(floor, 2 * s.radius + 0.1)}, parts.dark);
   }
 }
 
@@ -213,7 +214,7 @@ void draw_nosed_bus(const FleetShape& shape, const Parts& parts, const Pen& pen,
   s.doors = {s.front - 0.7};
   s.open_front = true;
   draw_shell(pen, s, floor, parts, rng);
-  draw_axle(pen, {cab.front - (school ? 1.1 : 0.95), cab.half_width - 0.06, s.radius, 0.25, false},
+  draw_axle(pen, {cab.front - (school ? 1.1 : 0.95), cab.half_width + 0.012, s.radius, 0.25, false},
             parts);
   if (!school) return;
   Pen draw = pen;

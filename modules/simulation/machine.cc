@@ -59,7 +59,7 @@ void draw_excavator(const FleetShape& shape, const Parts& parts, const Pen& pen,
              std::min(roof, shape.height), parts);
   const Eigen::Vector3d foot(turn + 0.4 * size, -0.15, deck + 0.7 * size);
   const Eigen::Vector3d elbow(turn + 0.55 * (tip - turn), -0.15, shape.height - 0.2);
-  const Eigen::Vector3d wrist(tip - 0.45 * size - 0.1, -0.15, rng.uniform(0.7, 1.2) * size);
+  const Eigen::Vector3d wrist(tip - 0.42 * size, -0.15, rng.uniform(0.7, 1.2) * size);
   const Eigen::Vector3d knee = 0.5 * (foot + elbow) + Eigen::Vector3d(-0.1, 0, 0.2 * size);
   draw.tube({foot, knee, elbow}, {0.2 * size, 0.25 * size, 0.16 * size}, 4, parts.paint);
   draw.tube({elbow, wrist}, {0.2 * size, 0.13 * size}, 4, parts.paint);

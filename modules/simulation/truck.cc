@@ -55,7 +55,7 @@ CabShape long_nose_cab(const FleetShape& shape, core::Rng& rng) {
   cab.bonnet = rng.uniform(1.35, 1.5);
   cab.belt = cab.bonnet + 0.3;
   cab.lintel = cab.belt + 0.7;
-  cab.height = rng.uniform(2.8, 3.6);
+  cab.height = rng.uniform(3.0, 3.7);
   return cab;
 }
 
@@ -75,7 +75,7 @@ Chassis draw_chassis(const FleetShape& shape, const CabShape& cab, double gap, c
   draw_ladder_frame(pen, rear + 0.1, cab.front - 0.6, top, parts);
   const double front_axle =
       cab.nose > 0.3 ? cab.front - 0.5 * cab.nose - 0.45 : cab.front - rng.uniform(1.2, 1.4);
-  const double track = std::min(cab.half_width, chassis.half_width) - 0.04;
+  const double track = cab.half_width + 0.015;  // the tyres stand out from the cab's sides
   draw_axle(pen, {front_axle, track, r, light ? 0.22 : 0.3, false}, parts);
   const double last = rear + rng.uniform(0.2, 0.27) * shape.length;
   const bool tandem = shape.length > 8 && (shape.kind != box_truck || rng.chance(0.3));
@@ -117,8 +117,8 @@ void draw_step_van(const FleetShape& shape, const Parts& parts, const Pen& pen, 
             parts.interior);
   const double rear = -shape.length / 2;
   const double r = 0.4;
-  draw_axle(pen, {cab.front - 0.95, cab.half_width - 0.06, r, 0.22, false}, parts);
-  draw_axle(pen, {rear + 0.27 * shape.length, cab.half_width - 0.06, r, 0.22, true}, parts);
+  draw_axle(pen, {cab.front - 0.95, cab.half_width + 0.012, r, 0.22, false}, parts);
+  draw_axle(pen, {rear + 0.27 * shape.length, cab.half_width + 0.012, r, 0.22, true}, parts);
   draw_ladder_frame(pen, rear + 0.1, cab.front - 0.4, 0.75, parts);
   draw.box({rear, -0.9 * cab.half_width, 0.45}, {rear + 0.06, 0.9 * cab.half_width, 0.65},
            parts.dark);
@@ -135,7 +135,7 @@ Tractor draw_tractor(const FleetShape& shape, const Parts& parts, const Pen& pen
   draw_cab(pen, cab, parts);
   const double length = nose ? cab.length + 3.0 : rng.uniform(5.8, 6.1);
   draw_ladder_frame(pen, cab.front - length, cab.front - 0.6, 0.95, parts);
-  draw_axle(pen, {cab.front - (nose ? 1.2 : 1.4), cab.half_width - 0.05, 0.5, 0.32, false}, parts);
+  draw_axle(pen, {cab.front - (nose ? 1.2 : 1.4), cab.half_width + 0.015, 0.5, 0.32, false}, parts);
   for (int k = 0; k < (nose ? 2 : 1); ++k) {
     draw_axle(pen, {cab.front - length + 0.75 + 1.3 * k, shape.width / 2 - 0.03, 0.5, 0.27, true},
               parts);

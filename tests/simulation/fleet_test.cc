@@ -123,7 +123,7 @@ TEST(Fleet, ATrucksBoxIsApartFromItsCab) {
 
 TEST(Fleet, AVansCargoRoomIsNotApart) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    EXPECT_LT(widest_gap(draw(FleetKind::large_van, seed), 1.2), 0.1) << seed;
+    EXPECT_LT(widest_gap(draw(FleetKind::large_van, seed), 0.8), 0.1) << seed;
   }
 }
 
