@@ -174,4 +174,16 @@ void add_passer_by(World& world, const SE3& T_world_ground, core::Rng& rng) {
   draw_belonging(pen, what, h, clothes, rng);
 }
 
+void add_sitters(World& world, const Palette& palette, const SE3& T_world_ground, core::Rng& rng) {
+  Pen pen(world.mesh, T_world_ground);
+  const double top = rng.uniform(0.4, 0.5);
+  const int count = 1 + rng.index(3);
+  pen.box({-0.25, -0.4 * count, 0}, {0.2, 0.4 * count, top}, palette.structure);
+  for (int i = 0; i < count; ++i) {
+    const Clothes clothes = random_clothes(world, kPerson, rng);
+    const double y = 0.75 * (i - 0.5 * (count - 1));
+    draw_person(pen.at(0, y, 0), Posture::seated, rng.uniform(1.5, 1.9), top + 0.1, clothes, rng);
+  }
+}
+
 }  // namespace saker::simulation

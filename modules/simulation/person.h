@@ -22,4 +22,7 @@ void draw_person(const Pen& pen, Posture posture, double height, double seat,
 /// Someone of any age and size with anything or nothing, standing, walking or in a chair.
 void add_passer_by(World& world, const SE3& T_world_ground, core::Rng& rng);
 
+/// One to three people side by side on a low wall or block.
+void add_sitters(World& world, const Palette& palette, const SE3& T_world_ground, core::Rng& rng);
+
 }  // namespace saker::simulation

@@ -140,6 +140,11 @@ void add_sidewalk_life(Site& site, const Lot& lot) {
     add_group(site, rng.uniform(lot.from, lot.to), lot.at(rng.uniform(0.2, 0.85)),
               1 + rng.index(4));
   }
+  for (int i = count_of(site, lot, 0.4); i > 0; --i) {  // facing the street
+    const double s = rng.uniform(lot.from, lot.to), d = lot.at(0.85);
+    if (!site.claim(s, d, 0.9)) continue;
+    add_sitters(site.world, site.palette, site.terrain.upright(s, d, -lot.side * turn), rng);
+  }
   for (int i = count_of(site, lot, 1); i > 0; --i) {
     const double yaw = rng.chance(0.6) ? turn + rng.normal(0, 0.2) : rng.uniform(0.5, 1.1);
     const TwoWheeler kind = any_two_wheeler(rng, 0.45);
