@@ -32,9 +32,13 @@ enum Label : std::uint16_t {
   kCar = 10,
   kBicycle = 11,
   kBus = 13,
+  kMotorcycle = 15,
   kTruck = 18,
   kOtherVehicle = 20,
+  kVan = 21,  ///< our own: SemanticKITTI counts vans as cars; only training worlds use it
   kPerson = 30,
+  kBicyclist = 31,
+  kMotorcyclist = 32,
   kRoad = 40,
   kParking = 44,
   kSidewalk = 48,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "simulation/populate_fleet.h"
+
 namespace saker::simulation {
 
 Population random_population(core::Rng& rng) {
@@ -105,7 +107,9 @@ void build_side(Site& site, const std::vector<Strip>& strips, double side) {
   double d = 0;
   const double reach = site.terrain.shape().half_length - 4;
   for (const Strip& strip : strips) {
-    build(site, {&strip, d, side, -reach, reach});
+    const Lot lot{&strip, d, side, -reach, reach};
+    build(site, lot);
+    if (site.population.fleet != FleetTheme::none) add_street_life(site, lot);
     d += strip.width;
   }
 }

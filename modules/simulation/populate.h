@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "simulation/fleet.h"
 #include "simulation/layout.h"
 #include "simulation/plants.h"
 #include "simulation/vehicle.h"
@@ -19,6 +20,7 @@ struct Population {
   double clutter = 1;         ///< factor on bins, people, bicycles, signs
   double heavy = 0.05;        ///< share of trucks, buses and trailers
   bool every_kind = false;    ///< the five kinds of cars in equal numbers, in a shuffled order
+  FleetTheme fleet = FleetTheme::none;  ///< of training worlds: every kind of fleet.h, by theme
 };
 
 [[nodiscard]] Population random_population(core::Rng& rng);

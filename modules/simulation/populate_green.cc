@@ -4,7 +4,7 @@
 
 #include "simulation/buildings.h"
 #include "simulation/furniture.h"
-#include "simulation/populate.h"
+#include "simulation/populate_fleet.h"
 
 namespace saker::simulation {
 namespace {
@@ -129,6 +129,10 @@ void build_garden(Site& site, const Lot& lot) {
   if (lot.strip->width > 4.5) {
     for (double s = lot.from; s < lot.to; s += 16) {  // drives with a car in front of the house
       if (!site.rng.chance(0.35 * site.population.parked)) continue;
+      if (site.population.fleet != FleetTheme::none) {
+        park_in_drive(site, lot, s);
+        continue;
+      }
       const VehicleShape shape = random_shape(site.next_kind(), site.rng);
       const double yaw = lot.side * (site.rng.chance(0.7) ? 1 : -1) * std::numbers::pi / 2;
       if (shape.length > 6 ||

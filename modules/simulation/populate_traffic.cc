@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulation/populate.h"
+#include "simulation/populate_fleet.h"
 
 namespace saker::simulation {
 namespace {
@@ -23,6 +23,7 @@ double driving_yaw(const Lot& lot) { return lot.side < 0 ? 0 : kHalfTurn; }
 }  // namespace
 
 void build_parallel_parking(Site& site, const Lot& lot) {
+  if (site.population.fleet != FleetTheme::none) return park_fleet_along(site, lot);
   core::Rng& rng = site.rng;
   const double against = rng.uniform(0, 0.3);  // share that is parked against the traffic
   double s = lot.from;
@@ -39,6 +40,7 @@ void build_parallel_parking(Site& site, const Lot& lot) {
 }
 
 void build_perpendicular_parking(Site& site, const Lot& lot) {
+  if (site.population.fleet != FleetTheme::none) return park_fleet_across(site, lot);
   core::Rng& rng = site.rng;
   const double slot = rng.uniform(2.45, 2.8);
   const double skew = rng.chance(0.25) ? rng.uniform(-0.5, 0.5) : 0;
@@ -54,6 +56,7 @@ void build_perpendicular_parking(Site& site, const Lot& lot) {
 }
 
 void build_lane(Site& site, const Lot& lot) {
+  if (site.population.fleet != FleetTheme::none) return drive_fleet(site, lot);
   core::Rng& rng = site.rng;
   for (double s = lot.from; s < lot.to; s += 12) {
     if (!rng.chance(site.population.traffic)) continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "simulation/populate_fleet.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -46,7 +48,9 @@ BuiltWorld build_world(WorldKind kind, std::uint64_t seed) {
   const CrossSection section = random_section(kind, palette, shape_rng);
   Terrain terrain(random_terrain(kind, palette, shape_rng), section, shape_rng);
   terrain.draw(world);
-  Site site({world, palette, flora, terrain, random_population(site_rng), site_rng});
+  Population population = random_population(site_rng);
+  population.fleet = any_theme(kind, site_rng);
+  Site site({world, palette, flora, terrain, population, site_rng});
   populate(site);
   std::vector<Eigen::Vector2d> places = find_free_places(site, place_rng);
   return {std::move(world), std::move(terrain), kind, std::move(places)};

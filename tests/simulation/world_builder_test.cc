@@ -48,6 +48,33 @@ TEST(WorldBuilder, NoTwoVehiclesStandInEachOther) {
   }
 }
 
+std::map<std::uint16_t, int> triangles_by_label(const World& world) {
+  std::map<std::uint16_t, int> count;
+  for (const MaterialId m : world.mesh.materials) ++count[world.materials[m].label];
+  return count;
+}
+
+TEST(WorldBuilder, TrainingWorldsHoldEveryKindOfRoadUser) {
+  std::map<std::uint16_t, int> worlds_with;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const World world = build_world(WorldKind::street, seed).world;
+    for (const auto& [label, triangles] : triangles_by_label(world)) ++worlds_with[label];
+  }
+  for (const int label : {kCar, kVan, kTruck, kBus, kOtherVehicle, kMotorcycle, kBicycle, kPerson,
+                          kBicyclist, kMotorcyclist}) {
+    EXPECT_GE(worlds_with[static_cast<std::uint16_t>(label)], 4) << label;
+  }
+}
+
+/// Maps know the vehicles of vehicle.h only.
+TEST(WorldBuilder, AFlightHasNoneOfTheFleetOfTrainingWorlds) {
+  std::map<std::uint16_t, int> count = triangles_by_label(build_flight_world({}, 3).built.world);
+  for (const int label : {kVan, kTruck, kBus, kMotorcycle, kBicyclist}) {
+    EXPECT_EQ(count[static_cast<std::uint16_t>(label)], 0) << label;
+  }
+  EXPECT_GT(count[kCar], 0);
+}
+
 TEST(WorldBuilder, AFlightPassesAllFiveKindsOfCarsTreesAndPoles) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const World world = build_flight_world({}, seed).built.world;
