@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "simulation/furnish_street.h"
+#include "simulation/layout_town.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -10,8 +13,8 @@ double passable(const std::vector<Strip>& strips) {
   double width = 0;
   for (const Strip& strip : strips) {
     const bool open = strip.use == Use::none || strip.use == Use::lane ||
-                      strip.use == Use::sidewalk || strip.use == Use::parallel_parking ||
-                      strip.use == Use::perpendicular_parking;
+                      strip.use == Use::sidewalk || strip.use == Use::square ||
+                      strip.use == Use::parallel_parking || strip.use == Use::perpendicular_parking;
     if (!open) break;
     width += strip.width;
   }
@@ -39,15 +42,25 @@ BuiltWorld build_world(WorldKind kind, std::uint64_t seed) {
   core::Rng flora_rng = base.fork(1);
   core::Rng site_rng = base.fork(2);
   core::Rng place_rng = base.fork(3);
+  core::Rng street_rng = base.fork(4);
   if (kind == WorldKind::mixed) kind = any_world(shape_rng);
   World world;
   const Palette palette = make_palette(world, shape_rng);
-  const Flora flora = grow_flora(world, palette, flora_rng);
+  Flora flora = grow_flora(world, palette, flora_rng);
+  const StreetPalette street_palette = make_street_palette(world, palette, street_rng);
+  const StreetFlora street_flora = grow_street_flora(world, street_palette, flora_rng);
+  widen_flora(world, street_palette, flora, flora_rng);
   const CrossSection section = random_section(kind, palette, shape_rng);
-  Terrain terrain(random_terrain(kind, palette, shape_rng), section, shape_rng);
+  TerrainShape shape = random_terrain(kind, palette, shape_rng);
+  vary_ground(shape, kind, shape_rng);
+  Terrain terrain(shape, section, shape_rng);
   terrain.draw(world);
   Site site({world, palette, flora, terrain, random_population(site_rng), site_rng});
+  StreetSite street{site, street_palette, street_flora, random_theme(street_rng), street_rng};
+  paint_street(street);
+  reserve_street(street);
   populate(site);
+  furnish_street(street);
   std::vector<Eigen::Vector2d> places = find_free_places(site, place_rng);
   return {std::move(world), std::move(terrain), kind, std::move(places)};
 }
