@@ -29,7 +29,9 @@ struct StreetSite {
   StreetTheme theme;
   core::Rng& rng;
 
-  [[nodiscard]] Nursery nursery() const { return {site.world, palette, site.flora, flora}; }
+  [[nodiscard]] Nursery nursery() const {
+    return {site.world, palette, site.flora, flora, theme.winter ? 0.95 : 0.25};
+  }
 };
 
 /// Takes places where vehicles could stand, builds houses and borders: before populate().

@@ -183,8 +183,6 @@ CrossSection random_section(WorldKind kind, const Palette& palette, core::Rng& r
   CrossSection section;
   section.left = random_side(kind, palette, rng);
   section.right = random_side(kind, palette, rng);
-  vary_side(section.left, rng);
-  vary_side(section.right, rng);
   return section;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "simulation/ground_details.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -91,6 +93,26 @@ bool soft(Use use) {
          use == Use::forest || use == Use::thicket || use == Use::none;
 }
 
+/// What a world's roads and walks are made of.
+struct Surfaces {
+  MaterialId asphalt, parking, paving;
+};
+
+void vary_side(std::vector<Strip>& strips, core::Rng& rng) {
+  const double rough = rng.chance(0.5) ? rng.uniform(0.01, 0.1) : 0;
+  const bool banks = rng.chance(0.3);
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    Strip& strip = strips[i];
+    if (strip.use == Use::buildings && rng.chance(0.85)) strip.use = Use::houses;
+    if (strip.use == Use::barrier && rng.chance(0.7)) strip.use = Use::border;
+    if (strip.kerb > 0.02) strip.kerb = rng.uniform(0.03, 0.18);
+    if (i > 1 && soft(strip.use)) {
+      strip.rough = rough * std::min(1.0, strip.width / 4);
+      if (banks && strip.width < 12 && rng.chance(0.4)) strip.slope = rng.uniform(-0.45, 0.45);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Strip> town_side(WorldKind kind, const Palette& p, core::Rng& rng) {
@@ -106,17 +128,20 @@ std::vector<Strip> town_side(WorldKind kind, const Palette& p, core::Rng& rng) {
   }
 }
 
-void vary_side(std::vector<Strip>& strips, core::Rng& rng) {
-  const double rough = rng.chance(0.5) ? rng.uniform(0.01, 0.1) : 0;
-  const bool banks = rng.chance(0.3);
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    Strip& strip = strips[i];
-    if (strip.use == Use::buildings && rng.chance(0.85)) strip.use = Use::houses;
-    if (strip.use == Use::barrier && rng.chance(0.7)) strip.use = Use::border;
-    if (strip.kerb > 0.02) strip.kerb = rng.uniform(0.03, 0.18);
-    if (i > 1 && soft(strip.use)) {
-      strip.rough = rough * std::min(1.0, strip.width / 4);
-      if (banks && strip.width < 12 && rng.chance(0.4)) strip.slope = rng.uniform(-0.45, 0.45);
+void vary_section(CrossSection& section, World& world, const StreetPalette& p, core::Rng& rng) {
+  const Surfaces other{
+      rng.chance(0.12) ? p.cobble : p.asphalt,
+      rng.chance(0.15) ? labelled(world, p.gravel, kParking) : p.parking,
+      rng.chance(0.15) ? labelled(world, p.cobble, kSidewalk) : p.paving,
+  };
+  for (std::vector<Strip>* side : {&section.left, &section.right}) {
+    vary_side(*side, rng);
+    for (Strip& strip : *side) {
+      if (strip.surface == p.asphalt) strip.surface = other.asphalt;
+      if (strip.surface == p.parking) strip.surface = other.parking;
+      if (strip.surface == p.paving) strip.surface = other.paving;
+      const bool green = strip.surface == p.grass || strip.surface == p.meadow;
+      if (green && rng.chance(0.12)) strip.surface = rng.chance(0.6) ? p.soil : p.gravel;
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "simulation/furnish_street.h"
 #include "simulation/ground_details.h"
 #include "simulation/street_furniture.h"
+#include "simulation/vehicle.h"
 
 namespace saker::simulation {
 namespace {
@@ -38,6 +39,7 @@ class RoadPainter {
     wet();
     bumps();
     islands();
+    cross_traffic();
     if (street_.theme.tram) tram();
     if (rng_.chance(street_.theme.works)) works();
     if (rng_.chance(0.06)) bridge();
@@ -108,6 +110,28 @@ class RoadPainter {
       const SE3 T = street_.site.terrain.upright(s, 0) * placed(rng_.uniform(-1, 1), 0, 0.05);
       (rng_.chance(0.4) ? add_bollard_row : any_pole(rng_))(street_.site.world, street_.palette, T,
                                                             rng_);
+    }
+  }
+
+  /// Queues on the crossing street, in the lane of their direction, not on the road itself.
+  void cross_traffic() {
+    const TerrainShape& shape = street_.site.terrain.shape();
+    if (shape.crossing > 1e8 || !rng_.chance(0.6)) return;
+    const double share = rng_.uniform(0.1, 0.8);
+    for (const double side : {-1.0, 1.0}) {
+      for (const double lane : {-1.0, 1.0}) {
+        const double s = shape.crossing + lane * 0.5 * shape.crossing_half_width;
+        double out = (side > 0 ? left_ : -right_) + rng_.uniform(1, 4);
+        while (out < 45) {
+          const VehicleShape vehicle = random_shape(street_.site.next_kind(), rng_);
+          const double middle = side * (out + vehicle.length / 2);
+          const double yaw = lane * std::numbers::pi / 2 + rng_.normal(0, 0.02);
+          if (rng_.chance(share))
+            add_vehicle(street_.site.world, street_.palette, vehicle,
+                        street_.site.terrain.on_ground(s, middle, yaw), true, rng_);
+          out += vehicle.length + rng_.uniform(0.8, 6);
+        }
+      }
     }
   }
 

@@ -77,7 +77,7 @@ void add_single(const Nursery& n, double size, bool thick, const SE3& T, core::R
   const double turn = rng.uniform(0, kFullTurn);
   const Eigen::Vector3d tip(lean * height * std::cos(turn), lean * height * std::sin(turn), height);
   draw_stem(pen, {0, 0, 0}, tip, radius, any_bark(n, rng), rng);
-  top_off(n, pen, tip, radius, thick ? 1.8 * size : size, rng.chance(0.35), T, rng);
+  top_off(n, pen, tip, radius, thick ? 1.8 * size : size, rng.chance(n.bare_share), T, rng);
 }
 
 void add_forked(const Nursery& n, double size, const SE3& T, core::Rng& rng) {
@@ -87,7 +87,7 @@ void add_forked(const Nursery& n, double size, const SE3& T, core::Rng& rng) {
   const double fork = rng.uniform(0.4, 1.6);
   draw_stem(pen, {0, 0, 0}, {0, 0, fork}, radius, bark, rng);
   const double turn = rng.uniform(0, kFullTurn);
-  const bool bare = rng.chance(0.3);
+  const bool bare = rng.chance(n.bare_share);
   for (const double side : {-1.0, 1.0}) {
     const double out = side * rng.uniform(0.3, 1.0);
     const Eigen::Vector3d tip(out * std::cos(turn), out * std::sin(turn),
@@ -109,7 +109,7 @@ void add_many_stems(const Nursery& n, double size, const SE3& T, core::Rng& rng)
     const Eigen::Vector3d tip = rng.uniform(0.3, 1.1) * out + Eigen::Vector3d(0, 0, height);
     draw_stem(pen, rng.uniform(0.05, 0.25) * out, tip, size * rng.uniform(0.03, 0.1), bark, rng);
   }
-  top_off(n, pen, {0, 0, height - 0.4}, 0.12, 1.3 * size, rng.chance(0.25), T, rng);
+  top_off(n, pen, {0, 0, height - 0.4}, 0.12, 1.3 * size, rng.chance(n.bare_share), T, rng);
 }
 
 void add_pollarded(const Nursery& n, double size, const SE3& T, core::Rng& rng) {
@@ -135,7 +135,7 @@ void add_staked(const Nursery& n, const SE3& T, core::Rng& rng) {
   Pen pen(n.world.mesh, T);
   const double height = rng.uniform(1.8, 2.6);
   draw_stem(pen, {0, 0, 0}, {0, 0, height}, rng.uniform(0.02, 0.05), any_bark(n, rng), rng);
-  top_off(n, pen, {0, 0, height}, 0.04, 0.5, rng.chance(0.3), T, rng);
+  top_off(n, pen, {0, 0, height}, 0.04, 0.5, rng.chance(n.bare_share), T, rng);
   const int stakes = 1 + rng.index(3);
   for (int i = 0; i < stakes; ++i) {
     const double turn = kFullTurn * i / stakes;

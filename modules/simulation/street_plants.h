@@ -42,6 +42,7 @@ struct Nursery {
   const StreetPalette& palette;
   const Flora& flora;
   const StreetFlora& street;
+  double bare_share = 0.3;  ///< of the trees: without leaves
 };
 
 [[nodiscard]] TreeHabit any_habit(core::Rng& rng);

@@ -50,7 +50,8 @@ BuiltWorld build_world(WorldKind kind, std::uint64_t seed) {
   const StreetPalette street_palette = make_street_palette(world, palette, street_rng);
   const StreetFlora street_flora = grow_street_flora(world, street_palette, flora_rng);
   widen_flora(world, street_palette, flora, flora_rng);
-  const CrossSection section = random_section(kind, palette, shape_rng);
+  CrossSection section = random_section(kind, palette, shape_rng);
+  vary_section(section, world, street_palette, shape_rng);
   TerrainShape shape = random_terrain(kind, palette, shape_rng);
   vary_ground(shape, kind, shape_rng);
   Terrain terrain(shape, section, shape_rng);
