@@ -90,7 +90,7 @@ Strips square_side(const Palette& p, core::Rng& rng) {
 
 bool soft(Use use) {
   return use == Use::verge || use == Use::garden || use == Use::lawn || use == Use::tree_row ||
-         use == Use::forest || use == Use::thicket || use == Use::none;
+         use == Use::forest || use == Use::thicket;
 }
 
 /// What a world's roads and walks are made of.

@@ -12,14 +12,18 @@
 namespace saker::simulation {
 namespace {
 
-/// Width of what is driven on, from the middle line outwards.
+bool is_median(Use use) { return use == Use::island || use == Use::barrier || use == Use::border; }
+
+/// From the middle line to the far side of the last lane, medians included.
 double road_width(const std::vector<Strip>& strips) {
   double width = 0;
+  double road = 0;
   for (const Strip& strip : strips) {
-    if (strip.use != Use::lane && strip.width > 0.5) break;
+    if (strip.use != Use::lane && strip.use != Use::none && !is_median(strip.use)) break;
     width += strip.width;
+    if (strip.use == Use::lane) road = width;
   }
-  return width;
+  return road;
 }
 
 /// Paints and builds on the road between `right` < 0 and `left`.
@@ -30,7 +34,9 @@ class RoadPainter {
         ground_(street.site.world, street.palette, street.site.terrain),
         rng_(street.rng),
         left_(road_width(street.site.terrain.section().left)),
-        right_(-road_width(street.site.terrain.section().right)) {}
+        right_(-road_width(street.site.terrain.section().right)),
+        divided_(is_median(street.site.terrain.section().left.front().use) ||
+                 is_median(street.site.terrain.section().right.front().use)) {}
 
   void paint() {
     if (left_ - right_ < 3) return;
@@ -61,7 +67,7 @@ class RoadPainter {
         ground_.crosswalk(shape.crossing + end * (shape.crossing_half_width + 2.5), right_, left_);
     }
     if (rng_.chance(0.5)) ground_.crosswalk(any_s(), right_, left_);
-    if (rng_.chance(0.6)) ground_.line(0, -90, 90, 3, rng_.uniform(3, 7), 0.12);
+    if (!divided_ && rng_.chance(0.6)) ground_.line(0, -90, 90, 3, rng_.uniform(3, 7), 0.12);
   }
 
   void patch_up() {
@@ -90,7 +96,7 @@ class RoadPainter {
   }
 
   void bumps() {
-    if (!rng_.chance(0.25)) return;
+    if (divided_ || !rng_.chance(0.25)) return;
     const int count = 1 + rng_.index(4);
     for (int i = 0; i < count; ++i)
       ground_.speed_bump(any_s(), right_, left_, rng_.uniform(0.4, 3.5), rng_.uniform(0.04, 0.12));
@@ -98,7 +104,7 @@ class RoadPainter {
 
   /// Refuges with a sign or bollards between the lanes.
   void islands() {
-    if (left_ - right_ < 7 || !rng_.chance(0.4)) return;
+    if (divided_ || left_ - right_ < 7 || !rng_.chance(0.4)) return;
     const int count = 1 + rng_.index(3);
     for (int i = 0; i < count; ++i) {
       const double half_s = rng_.uniform(1.5, 8);
@@ -193,6 +199,7 @@ class RoadPainter {
   GroundPainter ground_;
   core::Rng& rng_;
   double left_, right_;
+  bool divided_;  ///< by a median
 };
 
 /// Drives, paths and steps from the walk to the houses; heaps beside the road.

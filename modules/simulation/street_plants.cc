@@ -33,8 +33,8 @@ void draw_stem(Pen& pen, const Eigen::Vector3d& foot, const Eigen::Vector3d& tip
 
 /// Boughs of a winter tree above `fork`: thick ones are trunk no more, but vegetation.
 void draw_boughs(Pen& pen, const Eigen::Vector3d& fork, double reach, double radius,
-                 MaterialId wood, core::Rng& rng) {
-  const int count = 8 + rng.index(10);
+                 MaterialId wood, bool bare, core::Rng& rng) {
+  const int count = bare ? 8 + rng.index(10) : 3 + rng.index(3);
   for (int i = 0; i < count; ++i) {
     const double turn = rng.uniform(0, kFullTurn);
     const double out = reach * rng.uniform(0.3, 1);
@@ -60,7 +60,7 @@ void crown(const Nursery& n, const Eigen::Vector3d& at, double radius, double he
 void top_off(const Nursery& n, Pen& pen, const Eigen::Vector3d& at, double radius, double size,
              bool bare, const SE3& T, core::Rng& rng) {
   const double reach = size * rng.uniform(1.2, 2.6);
-  draw_boughs(pen, at, reach, radius, n.palette.stems, rng);
+  draw_boughs(pen, at, reach, radius, n.palette.stems, bare, rng);
   if (!bare) crown(n, at - Eigen::Vector3d(0, 0, 0.2), reach, 2 * reach, T, rng);
 }
 

@@ -1,6 +1,6 @@
 #include "simulation/world_builder.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "simulation/furnish_street.h"
 #include "simulation/layout_town.h"
@@ -8,28 +8,32 @@
 namespace saker::simulation {
 namespace {
 
-/// How far from the middle line one can drive or walk.
-double passable(const std::vector<Strip>& strips) {
-  double width = 0;
-  for (const Strip& strip : strips) {
-    const bool open = strip.use == Use::none || strip.use == Use::lane ||
-                      strip.use == Use::sidewalk || strip.use == Use::square ||
-                      strip.use == Use::parallel_parking || strip.use == Use::perpendicular_parking;
-    if (!open) break;
-    width += strip.width;
+bool is_open(Use use) {
+  return use == Use::none || use == Use::lane || use == Use::sidewalk || use == Use::square ||
+         use == Use::parallel_parking || use == Use::perpendicular_parking;
+}
+
+/// Whether one can drive or walk at d, a metre to both sides of it too.
+bool passable(const CrossSection& section, double d) {
+  constexpr double kRoom = 1;
+  double begin = 0;
+  for (const Strip& strip : d >= 0 ? section.left : section.right) {
+    const double end = begin + strip.width;
+    const bool near = begin < std::abs(d) + kRoom && end > std::abs(d) - kRoom;
+    if (near && !is_open(strip.use)) return false;
+    begin = end;
   }
-  return std::max(0.5, width - 1.3);
+  return true;
 }
 
 /// Places about the middle of the world that nothing stands on.
 std::vector<Eigen::Vector2d> find_free_places(Site& site, core::Rng& rng) {
-  const double left = std::min(9.0, passable(site.terrain.section().left));
-  const double right = std::min(9.0, passable(site.terrain.section().right));
+  constexpr double kFarthest = 12;
   std::vector<Eigen::Vector2d> places;
   for (int attempt = 0; attempt < 400 && places.size() < 60; ++attempt) {
     const double s = rng.uniform(-45, 45);
-    const double d = rng.uniform(-right, left);
-    if (site.claim(s, d, 1.3)) places.emplace_back(s, d);
+    const double d = rng.uniform(-kFarthest, kFarthest);
+    if (passable(site.terrain.section(), d) && site.claim(s, d, 1.3)) places.emplace_back(s, d);
   }
   return places;
 }
