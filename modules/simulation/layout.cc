@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "simulation/layout_town.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -153,6 +155,11 @@ Strips random_side(WorldKind kind, const Palette& p, core::Rng& rng) {
       return highway_side(p, rng);
     case WorldKind::campus:
       return campus_side(p, rng);
+    case WorldKind::narrow:
+    case WorldKind::avenue:
+    case WorldKind::industry:
+    case WorldKind::square:
+      return town_side(kind, p, rng);
     default:
       return street_side(p, rng);
   }
@@ -162,10 +169,14 @@ Strips random_side(WorldKind kind, const Palette& p, core::Rng& rng) {
 
 WorldKind any_world(core::Rng& rng) {
   const double draw = rng.uniform();
-  if (draw < 0.48) return WorldKind::street;
-  if (draw < 0.58) return WorldKind::car_park;
-  if (draw < 0.8) return WorldKind::country;
-  return draw < 0.87 ? WorldKind::highway : WorldKind::campus;
+  if (draw < 0.28) return WorldKind::street;
+  if (draw < 0.37) return WorldKind::car_park;
+  if (draw < 0.5) return WorldKind::country;
+  if (draw < 0.55) return WorldKind::highway;
+  if (draw < 0.64) return WorldKind::campus;
+  if (draw < 0.76) return WorldKind::narrow;
+  if (draw < 0.88) return WorldKind::avenue;
+  return draw < 0.94 ? WorldKind::industry : WorldKind::square;
 }
 
 CrossSection random_section(WorldKind kind, const Palette& palette, core::Rng& rng) {
@@ -186,7 +197,9 @@ TerrainShape random_terrain(WorldKind kind, const Palette& palette, core::Rng& r
   t.relief_m = kind == WorldKind::car_park ? rng.uniform(0.01, 0.06) : rng.uniform(0.03, 0.25);
   t.roughness_m = rng.uniform(0.004, 0.015);
   t.crossing_surface = palette.asphalt;
-  if (kind == WorldKind::street && rng.chance(0.5)) {
+  const bool town = kind == WorldKind::street || kind == WorldKind::narrow ||
+                    kind == WorldKind::avenue || kind == WorldKind::industry;
+  if (town && rng.chance(0.5)) {
     t.crossing = rng.uniform(-40, 40);
     t.crossing_half_width = rng.uniform(3, 6);
   }

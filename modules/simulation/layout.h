@@ -7,10 +7,22 @@
 
 namespace saker::simulation {
 
-enum class WorldKind { mixed, street, car_park, country, highway, campus };
+enum class WorldKind {
+  mixed,
+  street,
+  car_park,
+  country,
+  highway,
+  campus,
+  narrow,
+  avenue,
+  industry,
+  square
+};
 
 [[nodiscard]] inline std::vector<std::string> enum_names(WorldKind) {
-  return {"mixed", "street", "car_park", "country", "highway", "campus"};
+  return {"mixed",  "street", "car_park", "country",  "highway",
+          "campus", "narrow", "avenue",   "industry", "square"};
 }
 
 /// `mixed` drawn: mostly streets.

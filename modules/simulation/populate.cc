@@ -100,6 +100,11 @@ void build(Site& site, const Lot& lot) {
       return build_thicket(site, lot);
     case Use::barrier:
       return build_barrier(site, lot);
+    case Use::houses:
+    case Use::industry:
+    case Use::border:
+    case Use::square:
+      return;  // reserve_street() and furnish_street() build these
   }
 }
 

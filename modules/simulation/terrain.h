@@ -22,6 +22,11 @@ enum class Use {
   buildings,
   thicket,  ///< bushes grown into each other, from the ground up
   barrier,  ///< a guard rail or a wall along the strip
+  // What follows only training's worlds hold.
+  houses,    ///< fronts with doors, steps, columns, shops, gates: populate_houses.cc
+  industry,  ///< halls, sheds, containers, piles
+  border,    ///< a hedge, fence or wall of any kind
+  square,    ///< paving with stalls, planters, cafes
 };
 
 /// A band of ground along the street.
@@ -31,12 +36,33 @@ struct Strip {
   Use use = Use::none;
   double kerb = 0;   ///< m, step up from the strip before
   double slope = 0;  ///< rise per metre outwards
+  double rough = 0;  ///< m, sd of the lumps that only this strip has
 };
 
 /// The street's section, from its middle line outwards.
 struct CrossSection {
   std::vector<Strip> left;
   std::vector<Strip> right;
+};
+
+/// A stretch along the street that climbs or falls; what lies beyond keeps the height.
+struct Ramp {
+  double from = 0, to = 0;  ///< s
+  double slope = 0;         ///< rise per metre
+};
+
+/// A mound, or with a negative height a hollow: flat within, sloping down over `edge`.
+struct Swell {
+  double s = 0, d = 0;
+  double half_length = 1, half_width = 1;  ///< m of the flat part, along and across
+  double edge = 1;                         ///< m
+  double height = 0;
+};
+
+/// Where the kerbs of one side are lowered for vehicles and prams.
+struct DroppedKerb {
+  double side = 1;
+  double from = 0, to = 0;  ///< s
 };
 
 /// The large shape of the ground.
@@ -50,6 +76,11 @@ struct TerrainShape {
   double crossing = 1e9;       ///< s of a crossing street
   double crossing_half_width = 4;
   MaterialId crossing_surface = 0;
+  double step_m = 1;  ///< between the rows of the ground's mesh along the street
+  double lump_phase = 0;
+  std::vector<Ramp> ramps;
+  std::vector<Swell> swells;
+  std::vector<DroppedKerb> dropped;
 };
 
 /// The ground in street coordinates: s along the middle line, d to its left.
@@ -79,6 +110,8 @@ class Terrain {
     double high;  ///< height at the strip's begin
     double slope;
     MaterialId surface;
+    double width;
+    double rough;
   };
   struct Wave {
     Eigen::Vector2d k;
@@ -88,6 +121,9 @@ class Terrain {
 
   [[nodiscard]] std::vector<Edge> edges_of(const std::vector<Strip>& strips) const;
   [[nodiscard]] double offset(double s, double d) const;
+  [[nodiscard]] double strip_offset(const Edge& edge, double s, double side, double out) const;
+  [[nodiscard]] double lumps(double s, double d) const;
+  [[nodiscard]] double lowered(double s, double side) const;
   [[nodiscard]] double relief(double s, double d) const;
   void draw_side(World& world, double side) const;
   void draw_band(Pen& pen, double side, const Edge& edge, double end) const;
