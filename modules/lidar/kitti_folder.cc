@@ -167,7 +167,9 @@ std::optional<Frame> KittiFolder::next() {
   frame.fault = read_rings(rings_, frame.name, frame.scan);
   if (!frame.fault.empty()) {
     ++counters_.faulty_scans;
-    frame.scan = {.stamp = frame.scan.stamp};
+    const Time stamp = frame.scan.stamp;
+    frame.scan = Scan();
+    frame.scan.stamp = stamp;
   }
   return frame;
 }
