@@ -23,8 +23,7 @@ double any_kerb(core::Rng& rng) { return rng.chance(0.2) ? 0 : rng.uniform(0.03,
 /// European: five metres of road in all, a strip to walk on or none, fronts at once.
 Strips narrow_side(const Palette& p, core::Rng& rng) {
   Strips strips;
-  const bool paved = rng.chance(0.35);
-  strips.push_back({rng.uniform(1.6, 2.8), paved ? p.paving : p.asphalt, Use::lane, 0, -0.02});
+  strips.push_back({rng.uniform(1.6, 2.8), p.asphalt, Use::lane, 0, -0.02});
   if (rng.chance(0.35))
     strips.push_back({rng.uniform(1.9, 2.2), p.parking, Use::parallel_parking, any_kerb(rng), 0});
   if (rng.chance(0.85))
