@@ -132,8 +132,10 @@ class Batches(torch.utils.data.Dataset):
     def _crops(self, points, label, rows, rng):
         """Two of one augmented scan, at random places."""
         points, label = augmentation.augment(points, label, rng)
-        values = np.pad(inputs.features(points), ((0, 0), (0, rows - len(points)), (0, 0)))
-        label = np.pad(label, ((0, rows - len(label)), (0, 0)), constant_values=classes.IGNORED)
+        values = inputs.features(points)
+        if len(points) < rows:
+            values = np.pad(values, ((0, 0), (0, rows - len(points)), (0, 0)))
+            label = np.pad(label, ((0, rows - len(label)), (0, 0)), constant_values=classes.IGNORED)
         places = points.shape[1] // self.width
         return [(values[:, :, c:c + self.width], label[:, c:c + self.width])
                 for c in rng.permutation(places)[:2] * self.width]
