@@ -12,7 +12,9 @@ namespace saker::lidar {
 namespace {
 
 using testing::MadeScan;
+using testing::ring_by_ring;
 using testing::RingFile;
+using testing::uneven_elevations;
 
 constexpr float kStep = 2 * std::numbers::pi_v<float> / 1024;
 
@@ -31,7 +33,7 @@ struct Angles {
 };
 
 RingFile uneven_file() {
-  const MadeScan sensor{.wall_m = 8, .elevation_deg = testing::uneven_elevations()};
+  const MadeScan sensor{.wall_m = 8, .elevation_deg = uneven_elevations()};
   return shuffled(ring_by_ring(sensor.organised()), 1);
 }
 

@@ -12,6 +12,8 @@ namespace {
 
 using testing::MadeScan;
 using testing::ring_by_ring;
+using testing::RingFile;
+using testing::uneven_elevations;
 
 TEST(Rings, AreFoundAgainInAFileThatGoesRingByRing) {
   const auto file = ring_by_ring(MadeScan{.wall_m = 8}.organised());
