@@ -77,8 +77,7 @@ TEST(KittiFolder, ABadScanIsAFaultAndTheRecordingGoesOn) {
 
 /// A recording of one scan of two points with these bytes as its ring numbers.
 std::optional<Frame> with_rings(const TemporaryFolder& folder, const std::string& bytes) {
-  for (const char* part : {"velodyne", "ring"})
-    std::filesystem::create_directory(folder / part);
+  for (const char* part : {"velodyne", "ring"}) std::filesystem::create_directory(folder / part);
   write_floats(folder / "velodyne/000000.bin", kTwoPoints);
   write_text(folder / "ring/000000.u8", bytes);
   return KittiFolder(folder.path()).next();
