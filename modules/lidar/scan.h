@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -25,6 +25,10 @@ struct Scan {
   std::vector<Eigen::Vector3f> points;
   std::vector<float> reflectivity;      ///< 0 … 1, one a point
   std::vector<std::int32_t> offset_ns;  ///< ≤ 0, time of the point relative to `stamp`, one a point
+  std::vector<std::uint16_t> ring;      ///< beam of each point as the recording says; or empty
+  /// Where the beams start: the identity, but for recordings that are published in another frame
+  /// than the sensor's (sensor_origin.h).
+  Eigen::Isometry3f T_lidar_sensor = Eigen::Isometry3f::Identity();
 
   [[nodiscard]] bool organised() const { return rows > 0; }
   [[nodiscard]] std::size_t size() const { return points.size(); }
