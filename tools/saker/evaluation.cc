@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A figure of nothing is null.
-Json number(double value, double steps = 1e4) {
+Json number(double value, double steps = 1e6) {
   if (!std::isfinite(value)) return nullptr;
   return std::nearbyint(value * steps) / steps;
 }
