@@ -29,11 +29,11 @@ void add_common(CLI::App& app, CommonOptions& common, Output output) {
       ->check(CLI::Range(1, 256));
   app.add_flag("-v,--verbose", common.verbose, "log debug lines too");
   if (output == Output::none) return;
-  const bool folder = output == Output::folder;
+  const bool folder = output != Output::file;
   app.add_option("-o,--out", common.out,
                  folder ? "folder for the results, made if need be" : "file to write")
       ->type_name(folder ? "OUT" : "FILE")
-      ->required();
+      ->required(output != Output::optional_folder);
   app.add_flag("--force", common.force, "replace results that are there");
 }
 

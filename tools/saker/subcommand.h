@@ -33,7 +33,7 @@ struct CommonOptions {
   bool force = false;
 };
 
-enum class Output { none, folder, file };
+enum class Output { none, folder, optional_folder, file };
 
 struct Description {
   std::string name;
