@@ -1,5 +1,6 @@
 """Labelled scans (SemanticKITTI layout: DIR/velodyne/*.bin, DIR/labels/*.label and, where the recording has them, ring numbers
 DIR/ring/*.u8 or *.u16; also inside folders of DIR) as samples for the network."""
+import multiprocessing
 import pathlib
 
 import numpy as np
@@ -56,6 +57,16 @@ def image_of(points, label, ring=None):
     return image, truth, pixel
 
 
+def project_into(job):
+    """Projects scan i into the files of a folder. \return its rows and columns"""
+    folder, shape, i, scan, truth = job
+    image, label, _ = image_of(*read_scan(scan, truth), read_rings(scan) if i % 2 else None)
+    rows, columns = label.shape
+    np.memmap(folder / "images.f32", np.float32, "r+", shape=shape + (3,))[i, :rows, :columns] = image
+    np.memmap(folder / "images.u8", np.uint8, "r+", shape=shape)[i, :rows, :columns] = label
+    return rows, columns
+
+
 class Images:
     """The projected scans of a folder, kept in files beside them so that every pass reads pixels only.
 
@@ -74,16 +85,11 @@ class Images:
 
     @staticmethod
     def _project(folder, shape):
-        points = np.memmap(folder / "images.f32", np.float32, "w+", shape=shape + (3,))
-        truths = np.memmap(folder / "images.u8", np.uint8, "w+", shape=shape)
-        sizes = np.zeros((shape[0], 2), np.int32)
-        for i, (scan, truth) in enumerate(files(folder)):
-            image, label, _ = image_of(*read_scan(scan, truth), read_rings(scan) if i % 2 else None)
-            rows, columns = sizes[i] = image.shape[:2]
-            points[i, :rows, :columns], truths[i, :rows, :columns] = image, label
-        points.flush()
-        truths.flush()
-        np.save(folder / "images.npy", sizes)
+        for name, kind, more in (("images.f32", np.float32, (3,)), ("images.u8", np.uint8, ())):
+            np.memmap(folder / name, kind, "w+", shape=shape + more)
+        jobs = [(folder, shape, i, scan, truth) for i, (scan, truth) in enumerate(files(folder))]
+        with multiprocessing.Pool() as pool:
+            np.save(folder / "images.npy", np.array(pool.map(project_into, jobs, 16), np.int32))
         (folder / "images.done").touch()
 
     def __len__(self):
