@@ -128,7 +128,7 @@ class Trainer:
 
 def batches(args, first):
     images = dataset.Images(args.scans)
-    chosen = list(range(dataset.trained(len(images))))
+    chosen = [i for i in range(dataset.trained(len(images))) if images.sizes[i, 0] > 0]
     data = dataset.Batches(images, chosen, args.batch, args.width, args.seed)
     return torch.utils.data.DataLoader(data, batch_size=None, sampler=range(first, args.steps), num_workers=args.workers,
                                        prefetch_factor=4 if args.workers else 2)
