@@ -11,6 +11,7 @@ import inputs
 import labels as classes
 
 ROWS, COLUMNS = 80, 1024  # of the images that are kept: what modules/segmentation/range_image.h gives at most
+LEAST_ROWS = 8  # fewer hold nothing to learn from: a sensor that is hidden
 STEP = 16  # rows of a batch are a multiple of this
 RARE = [classes.OUTPUTS.index(name) for name in ("trunk", "pole", "van", "truck", "bus", "other_vehicle")]
 

@@ -128,7 +128,7 @@ class Trainer:
 
 def batches(args, first):
     images = dataset.Images(args.scans)
-    chosen = [i for i in range(dataset.trained(len(images))) if images.sizes[i, 0] > 0]
+    chosen = [i for i in range(dataset.trained(len(images))) if images.sizes[i, 0] >= dataset.LEAST_ROWS]
     data = dataset.Batches(images, chosen, args.batch, args.width, args.seed)
     return torch.utils.data.DataLoader(data, batch_size=None, sampler=range(first, args.steps), num_workers=args.workers,
                                        prefetch_factor=4 if args.workers else 2)
