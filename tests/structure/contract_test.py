@@ -54,7 +54,7 @@ def documented():
         line = line.replace("\\|", "|")
         command = re.match(r"[a-z-]+(?: [a-z]+)*", line).group()
         options = set(re.findall(r"--[a-z-]+", line))
-        if re.search(r"(?<!\S)-o\b", line):
+        if re.search(r"(?<![^\s\[])-o\b", line):
             options |= WITH_OUT
         rest = re.sub(r"\[?-{1,2}[a-z-]+(?: [A-Za-z|.,]+)?\]?", "", line[len(command):])
         table[tuple(command.split())] = (set(re.findall(r"[A-Z]+", rest)), options | EVERYWHERE)

@@ -30,9 +30,12 @@ double wrapped(double angle, double period) {
   return angle - period * std::floor((angle + period / 2) / period);
 }
 
+/// In decimals, a half as its binary digits have it.
+double rounded(double value, int digits) {
+  return std::isfinite(value) ? std::stod(fmt::format("{:.{}f}", value, digits)) : value;
+}
 /// Labels are good to a decimetre: more digits than these would only look exact.
-double rounded(double value, double steps) { return std::nearbyint(value * steps) / steps; }
-double to_mm(double metres) { return rounded(metres, 1000); }
+double to_mm(double metres) { return rounded(metres, 3); }
 
 const SE3& pose_of(const std::vector<StampedPose>& poses, std::size_t scan) {
   if (scan < poses.size()) return poses[scan].T_world_lidar;
@@ -97,7 +100,7 @@ void compare(VehicleResult& result, const objects::MapObject& object, const Park
   result.length_error_m = to_mm(size_error.x());
   result.width_error_m = to_mm(size_error.y());
   const double axis = std::abs(wrapped(turned, std::numbers::pi));
-  result.heading_error_deg = rounded(axis * 180 / std::numbers::pi, 10);
+  result.heading_error_deg = rounded(axis * 180 / std::numbers::pi, 1);
   result.front_right = std::abs(turned) < std::numbers::pi / 2;
   add_consistency(result, object, size_error, place_error, label_sd_m);
 }
@@ -147,9 +150,9 @@ int count_invented(const Mapped& mapped, const std::vector<StampedPose>& poses,
   }));
 }
 
-nlohmann::ordered_json number(double value, double steps) {
+nlohmann::ordered_json number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
-  return rounded(value, steps);
+  return rounded(value, digits);
 }
 
 LabelledVehicle read_vehicle(const JsonNode& entry) {
@@ -223,15 +226,15 @@ nlohmann::ordered_json VehicleFigures::json() const {
           {"of", vehicles.size()},
           {"mapped_vehicles", mapped},
           {"invented_on_moving_paths", invented},
-          {"size_mae_m", number(core::mean_absolute(both), 1000)},
-          {"length_bias_m", number(core::mean(length), 1000)},
-          {"width_bias_m", number(core::mean(width), 1000)},
-          {"position_mae_m", number(core::mean(place), 1000)},
-          {"yaw_mae_deg", number(core::mean(heading), 1000)},
+          {"size_mae_m", number(core::mean_absolute(both), 3)},
+          {"length_bias_m", number(core::mean(length), 3)},
+          {"width_bias_m", number(core::mean(width), 3)},
+          {"position_mae_m", number(core::mean(place), 3)},
+          {"yaw_mae_deg", number(core::mean(heading), 3)},
           {"front_right", front_right},
           {"duplicates", duplicates},
-          {"size_nees", number(core::mean(size_nees), 100)},
-          {"place_nees", number(core::mean(place_nees), 100)}};
+          {"size_nees", number(core::mean(size_nees), 2)},
+          {"place_nees", number(core::mean(place_nees), 2)}};
 }
 
 }  // namespace saker::tools
