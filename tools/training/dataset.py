@@ -109,8 +109,8 @@ class Batches(torch.utils.data.Dataset):
         self.images, self.batch, self.width, self.seed = images, batch, width, seed
         odds = np.array([self._odds(i) for i in chosen])
         filled = -(-images.sizes[chosen, 0] // STEP)
-        self.alike = [(np.array(chosen)[filled == k], odds[filled == k]) for k in np.unique(filled)]
-        self.share = np.array([share.sum() for _, share in self.alike]) / odds.sum()
+        self.alike = [(STEP * k, np.array(chosen)[filled == k], odds[filled == k]) for k in np.unique(filled)]
+        self.share = np.array([share.sum() for _, _, share in self.alike]) / odds.sum()
 
     def _odds(self, i):
         """Scans with rare classes come more often."""
@@ -122,16 +122,14 @@ class Batches(torch.utils.data.Dataset):
 
     def __getitem__(self, number):
         rng = np.random.default_rng((self.seed, number))
-        scans, odds = self.alike[rng.choice(len(self.alike), p=self.share)]
-        beams = 2 if rng.random() < 0.15 and self.images.sizes[scans[0], 0] >= 32 else 1
-        samples, rows, wanted = [], None, None
-        while wanted is None or len(samples) < wanted:
+        rows, scans, odds = self.alike[rng.choice(len(self.alike), p=self.share)]
+        beams = 2 if rows > STEP and rng.random() < 0.15 else 1
+        rows = -(-rows // beams // STEP) * STEP
+        samples, wanted = [], max(1, self.batch * 64 // rows)
+        while len(samples) < wanted:
             points, label = self.images[rng.choice(scans, p=odds / odds.sum())]
             if beams > 1:
                 points, label = augmentation.fewer_beams(points, label, beams, rng)
-            if rows is None:
-                rows = -(-len(points) // STEP) * STEP
-                wanted = max(1, self.batch * 64 // rows)
             samples += self._crops(points, label, rows, rng)
         values, truth = zip(*samples[:wanted])
         return torch.from_numpy(np.stack(values)), torch.from_numpy(np.stack(truth).astype(np.int64))
