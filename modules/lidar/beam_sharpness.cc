@@ -59,6 +59,16 @@ float mean_log_ratio(const std::vector<Tile>& tiles, double points) {
   return weight > 0 ? static_cast<float>(sum / weight) : 0;
 }
 
+/// The number of each point's bin of sin(elevation), 0 … 2 / bin.
+template <class Points>
+Eigen::ArrayXi bins_of(const Points& points, const SensorPose& pose, float bin) {
+  const Eigen::Vector3f axis = sensor_axis(pose);
+  const auto x = points.x - pose[0], y = points.y - pose[1], z = points.z - pose[2];
+  const auto along = axis.x() * x + axis.y() * y + axis.z() * z;
+  const auto inverse_range = (x * x + y * y + z * z + 1e-6F).rsqrt();
+  return ((along * inverse_range + 1) / bin).max(0).min(2 / bin).template cast<int>();
+}
+
 }  // namespace
 
 Eigen::Vector3f sensor_axis(const SensorPose& pose) {
@@ -94,26 +104,24 @@ float BeamSharpness::by_sector(const SensorPose& pose, float bin) const {
   return sharpness(all_, pose, bin);
 }
 
+float BeamSharpness::share_between_beams(const SensorPose& pose, float bin) const {
+  const Eigen::ArrayXi index = bins_of(all_, pose, bin);
+  const auto tile_count = static_cast<std::size_t>(2 / bin) / kTileBins + 1;
+  std::vector<int> bins(tile_count * kTileBins), tiles(tile_count);
+  for (const int k : index) ++bins[k], ++tiles[k / kTileBins];
+  int between = 0;
+  for (const int k : index) between += bins[k] * kTileBins < tiles[k / kTileBins];
+  return static_cast<float>(between) / static_cast<float>(index.size());
+}
+
 float BeamSharpness::sharpness(const Points& points, const SensorPose& pose, float bin) {
   const auto tile_count = static_cast<std::size_t>(2 / bin) / kTileBins + 1;
-  const Eigen::Vector3f axis = sensor_axis(pose);
-  const float scale = 1 / bin;
   std::vector<Tile> tiles(tile_count);
   std::vector<std::int32_t> bins(tile_count * kTileBins);
-  Eigen::ArrayXi index(points.x.size());
-  {
-    const auto x = points.x - pose[0], y = points.y - pose[1], z = points.z - pose[2];
-    index =
-        (((axis.x() * x + axis.y() * y + axis.z() * z) * (x * x + y * y + z * z + 1e-6F).rsqrt() +
-          1) *
-         scale)
-            .cast<int>();
-  }
-  const auto last = static_cast<int>(bins.size()) - 1;
+  const Eigen::ArrayXi index = bins_of(points, pose, bin);
   for (std::size_t s = 0; s + 1 < points.sector.size(); ++s) {
     std::fill(bins.begin(), bins.end(), 0);
-    for (Eigen::Index i = points.sector[s]; i < points.sector[s + 1]; ++i)
-      ++bins[std::clamp(index[i], 0, last)];
+    for (Eigen::Index i = points.sector[s]; i < points.sector[s + 1]; ++i) ++bins[index[i]];
     for (std::size_t t = 0; t < tile_count; ++t) {
       std::int32_t same = 0, all = 0;
       for (int k = 0; k < kTileBins; ++k) {

@@ -31,6 +31,9 @@ class BeamSharpness {
   /// need not be known.
   [[nodiscard]] float by_sector(const SensorPose& pose, float bin) const;
 
+  /// Share of the points in bins that hold less than an even distribution would put there.
+  [[nodiscard]] float share_between_beams(const SensorPose& pose, float bin) const;
+
  private:
   struct Points {
     Eigen::ArrayXf x, y, z;
