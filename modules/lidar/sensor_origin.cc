@@ -9,6 +9,7 @@
 
 #include "lidar/beam_sharpness.h"
 #include "lidar/nelder_mead.h"
+#include "lidar/ring_cones.h"
 
 namespace saker::lidar {
 namespace {
@@ -25,6 +26,7 @@ constexpr float kDegree = std::numbers::pi_v<float> / 180;
 struct Candidate {
   SensorPose pose = SensorPose::Zero();
   float sharpness = 0;
+  float between = 0;  ///< share of the points that lie between the beams
 };
 
 bool sharper(const Candidate& a, const Candidate& b) { return a.sharpness > b.sharpness; }
@@ -42,7 +44,7 @@ std::vector<Candidate> search_grid(const BeamSharpness& beams) {
       for (float z = -2.5F; z <= 3.01F; z += kStepUp) {
         SensorPose pose;
         pose << x, y, z, 0, 0;
-        all.push_back({pose, beams.by_sector(pose, kFineBin)});
+        all.push_back({.pose = pose, .sharpness = beams.by_sector(pose, kFineBin)});
       }
     }
   }
@@ -102,7 +104,7 @@ Candidate refine(const BeamSharpness& beams, const SensorPose& pose) {
     best.pose = maximise(sharpness, best.pose, steps, kTries);
     steps *= -0.6F;  // the other way round, so that the simplex is a new one
   }
-  return {best.pose, sharpness(best.pose)};
+  return {.pose = best.pose, .sharpness = sharpness(best.pose)};
 }
 
 /// False where the sharpness has a second peak above or below, as of two sensors one over another,
@@ -132,9 +134,9 @@ bool agree(const SensorPose& a, const SensorPose& b) {
   return std::abs(a[2] - b[2]) <= kAgreeUp && (a - b).head<2>().norm() <= kAgreeAlong;
 }
 
-/// What one scan tells, searched everywhere or only about `guess`.
-std::optional<Candidate> search(const std::vector<Eigen::Vector3f>& points,
-                                const std::optional<Candidate>& guess = {}) {
+/// Searched everywhere, or only about `guess`.
+std::optional<Candidate> from_sharpness(const std::vector<Eigen::Vector3f>& points,
+                                        const std::optional<Candidate>& guess) {
   const BeamSharpness beams(points);
   if (beams.empty()) return std::nullopt;
   const float own = beams.whole(SensorPose::Zero(), kFineBin);
@@ -145,17 +147,32 @@ std::optional<Candidate> search(const std::vector<Eigen::Vector3f>& points,
     for (const Candidate& c : search_grid(beams))
       best = std::max(best, refine(beams, approach(beams, c.pose)), duller);
   }
-  const bool told = best.sharpness - own >= kLeastGain && moved(best.pose);
-  if (!told || !alone(beams, best, own)) return std::nullopt;
+  if (best.sharpness - own < kLeastGain || !alone(beams, best, own)) return std::nullopt;
+  best.between = beams.share_between_beams(best.pose, kFineBin);
   return best;
+}
+
+std::optional<Candidate> from_rings(const std::vector<Eigen::Vector3f>& points,
+                                    const std::vector<std::uint16_t>& rings) {
+  const std::optional<RingCones> cones = fit_ring_cones(points, rings);
+  if (!cones) return std::nullopt;
+  return Candidate{.pose = cones->pose, .sharpness = -std::log(cones->spread + 1e-6F)};
+}
+
+/// What one scan tells.
+std::optional<Candidate> search(const std::vector<Eigen::Vector3f>& points,
+                                const std::vector<std::uint16_t>& rings,
+                                const std::optional<Candidate>& guess) {
+  const bool numbered = !rings.empty() && rings.size() == points.size();
+  const std::optional<Candidate> found =
+      numbered ? from_rings(points, rings) : from_sharpness(points, guess);
+  if (!found || !moved(found->pose)) return std::nullopt;
+  return found;
 }
 
 /// Of two sensors, one's points lie between the other's beams: a quarter of all and more. A single
 /// sensor leaves a twentieth there, a blurred one up to a quarter.
-bool explained(const std::vector<Eigen::Vector3f>& points, const Candidate& found) {
-  constexpr float kMostBetween = 0.23F;
-  return BeamSharpness(points).share_between_beams(found.pose, kFineBin) < kMostBetween;
-}
+bool explained(const Candidate& found) { return found.between < 0.23F; }
 
 Eigen::Isometry3f transform_of(const SensorPose& pose) {
   Eigen::Isometry3f T_lidar_sensor = Eigen::Isometry3f::Identity();
@@ -168,29 +185,29 @@ Eigen::Isometry3f transform_of(const SensorPose& pose) {
 
 }  // namespace
 
-std::optional<Eigen::Isometry3f> find_sensor_origin(const std::vector<Eigen::Vector3f>& points) {
-  const std::optional<Candidate> found = search(points);
-  if (!found || !explained(points, *found)) return std::nullopt;
+std::optional<Eigen::Isometry3f> find_sensor_origin(const std::vector<Eigen::Vector3f>& points,
+                                                    const std::vector<std::uint16_t>& rings) {
+  const std::optional<Candidate> found = search(points, rings, std::nullopt);
+  if (!found || !explained(*found)) return std::nullopt;
   return transform_of(found->pose);
 }
 
 std::optional<Eigen::Isometry3f> find_sensor_origin(std::span<const Scan> scans) {
   constexpr std::size_t kFewest = 2, kSilent = 2;
   std::optional<Candidate> best;
-  const Scan* sharpest = nullptr;
   std::size_t telling = 0, silent = 0;
   for (const Scan& scan : scans) {
-    const std::optional<Candidate> found = search(scan.points, best);
+    const std::optional<Candidate> found = search(scan.points, scan.ring, best);
     if (!found) {
       if (++silent == kSilent) return std::nullopt;
       continue;
     }
     if (best && !agree(found->pose, best->pose)) return std::nullopt;
     ++telling;
-    if (!best || found->sharpness > best->sharpness) best = found, sharpest = &scan;
+    if (!best || found->sharpness > best->sharpness) best = found;
   }
   if (!best || telling < std::min(kFewest, scans.size())) return std::nullopt;
-  if (!explained(sharpest->points, *best)) return std::nullopt;
+  if (!explained(*best)) return std::nullopt;
   return transform_of(best->pose);
 }
 

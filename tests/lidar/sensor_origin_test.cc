@@ -43,6 +43,7 @@ Scan scan_in(const Eigen::Isometry3f& T_frame_sensor, std::uint64_t place = 1) {
       const float to_block = block_m[block];
       const float to_ground = elevation < 0 ? height_m[block] / std::tan(-elevation) : 1000;
       const float level = std::min(to_block, to_ground) + static_cast<float>(rng.normal(0, 0.01));
+      scan.ring.push_back(static_cast<std::uint16_t>(scan.size() / kColumns));
       scan.points.push_back(T_frame_sensor * Eigen::Vector3f(level * std::cos(azimuth),
                                                              level * std::sin(azimuth),
                                                              level * std::tan(elevation)));
@@ -70,6 +71,26 @@ TEST(SensorOrigin, IsFoundBelowAndBehindWithARoll) {
   const auto found = find_sensor_origin(scan_in(T).points);
   ASSERT_TRUE(found);
   expect_near(*found, T);
+}
+
+TEST(SensorOrigin, IsFoundByRingNumbers) {
+  Eigen::Isometry3f T = car_frame();
+  T.translation() << -1.3F, 0.5F, 2.4F;
+  const Scan scan = scan_in(T);
+  const auto found = find_sensor_origin(scan.points, scan.ring);
+  ASSERT_TRUE(found);
+  expect_near(*found, T);
+}
+
+TEST(SensorOrigin, IsNotMovedByRingNumbersWhereTheFrameIsTheSensors) {
+  const Scan scan = scan_in(Eigen::Isometry3f::Identity());
+  EXPECT_FALSE(find_sensor_origin(scan.points, scan.ring));
+}
+
+TEST(SensorOrigin, IsNotToldByRingNumbersThatAreNone) {
+  Scan scan = scan_in(car_frame());
+  for (std::size_t i = 0; i < scan.size(); ++i) scan.ring[i] = static_cast<std::uint16_t>(i % 64);
+  EXPECT_FALSE(find_sensor_origin(scan.points, scan.ring));
 }
 
 TEST(SensorOrigin, IsNotMovedWhereTheFrameIsTheSensors) {
@@ -104,7 +125,8 @@ TEST(SensorOrigin, IsNotToldByFewPointsOrNaN) {
 }
 
 TEST(SensorOrigin, IsWhatTheScansAgreeOn) {
-  const std::vector<Scan> scans = {scan_in(car_frame()), scan_in(car_frame(), 2)};
+  std::vector<Scan> scans = {scan_in(car_frame()), scan_in(car_frame(), 2)};
+  for (Scan& scan : scans) scan.ring.clear();
   const auto found = find_sensor_origin(scans);
   ASSERT_TRUE(found);
   expect_near(*found, car_frame());
@@ -113,7 +135,9 @@ TEST(SensorOrigin, IsWhatTheScansAgreeOn) {
 TEST(SensorOrigin, IsNotToldByScansThatDisagree) {
   Eigen::Isometry3f higher = car_frame();
   higher.translation().z() += 0.5F;
-  EXPECT_FALSE(find_sensor_origin(std::vector<Scan>{scan_in(car_frame()), scan_in(higher)}));
+  const std::vector<Scan> scans = {scan_in(car_frame()), scan_in(higher)};
+  EXPECT_TRUE(find_sensor_origin(std::span(scans).first(1)));
+  EXPECT_FALSE(find_sensor_origin(scans));
 }
 
 TEST(SensorOrigin, IsDescribedInALine) {
