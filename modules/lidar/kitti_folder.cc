@@ -185,7 +185,8 @@ std::optional<Frame> KittiFolder::next() {
   frame.fault = read(file, frame.scan);
   if (!frame.fault.empty()) {
     ++counters_.faulty_scans;
-    frame.scan = {.stamp = frame.scan.stamp};
+    frame.scan = {};
+    frame.scan.stamp = times_[next_ - 1];
   }
   return frame;
 }
