@@ -76,7 +76,8 @@ void Lockstep::start_segmentation(const std::shared_ptr<const lidar::Scan>& scan
                      estimate.T_odom_lidar,
                      std::move(points),
                      std::move(labels),
-                     {scan, &scan->reflectivity}});
+                     {scan, &scan->reflectivity},
+                     scan->T_lidar_sensor.translation().cast<double>()});
 }
 
 /// Called when the newest scan has just been labelled: the detections are given in its frame.
@@ -88,8 +89,8 @@ void Lockstep::start_cycle(Time now) {
   auto detections = pool_.submit([this, window](Stages& stages) {
     std::vector<detection::LabelledScan> scans;
     for (const LabelledFuture& scan : window) {
-      scans.push_back(
-          {scan.stamp, scan.T_odom_lidar, scan.points, scan.labels.get(), scan.reflectivity});
+      scans.push_back({scan.stamp, scan.T_odom_lidar, scan.points, scan.labels.get(),
+                       scan.reflectivity, scan.sensor});
     }
     return timings_.time("detection", [&] { return stages.detection.detect(scans); });
   });

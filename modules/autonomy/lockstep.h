@@ -72,6 +72,7 @@ class Lockstep {
     std::shared_ptr<const std::vector<Eigen::Vector3f>> points;
     std::shared_future<std::shared_ptr<const lidar::Labels>> labels;
     std::shared_ptr<const std::vector<float>> reflectivity;
+    Eigen::Vector3d sensor;
   };
   struct Cycle {
     slam::SlamInput input;

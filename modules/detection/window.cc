@@ -97,7 +97,7 @@ void gather(std::span<const LabelledScan> scans, const objects::ClassTable& tabl
   for (auto scan = scans.rbegin(); scan != scans.rend(); ++scan) {
     if (!usable(*scan)) continue;
     const SE3 T_level_lidar = T_odom_level.inverse() * scan->T_odom_lidar;
-    window.sensors.push_back(T_level_lidar.translation());
+    window.sensors.emplace_back(T_level_lidar * scan->sensor);
     window.seconds.push_back(to_seconds(scan->stamp - scans.back().stamp));
     gatherer.add(*scan, T_level_lidar);
   }

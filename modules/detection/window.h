@@ -23,6 +23,7 @@ struct LabelledScan {
       points;                                   ///< deskewed, in the lidar frame at `stamp`, m
   std::shared_ptr<const lidar::Labels> labels;  ///< one a point
   std::shared_ptr<const std::vector<float>> reflectivity = nullptr;  ///< one a point; may be absent
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< where beams start, lidar frame, m
 };
 
 struct WindowConfig {

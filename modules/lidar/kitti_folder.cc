@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "core/error.h"
+#include "lidar/sensor_origin.h"
 
 namespace saker::lidar {
 namespace {
@@ -149,6 +151,29 @@ KittiFolder::KittiFolder(const fs::path& folder) {
   times_ = times_of(scans, files_.size());
   std::error_code ignored;
   if (fs::is_directory(parent_of(scans) / "ring", ignored)) rings_ = parent_of(scans) / "ring";
+  find_origin();
+}
+
+std::string KittiFolder::read(const fs::path& file, Scan& scan) {
+  const std::string fault = read_floats(file, buffer_);
+  if (!fault.empty()) return file.filename().string() + ": " + fault;
+  fill(buffer_, scan);
+  if (T_lidar_sensor_) scan.T_lidar_sensor = *T_lidar_sensor_;
+  return read_rings(rings_, file.stem().string(), scan);
+}
+
+void KittiFolder::find_origin() {
+  std::vector<Scan> scans;
+  const std::size_t last = files_.size() - 1;
+  for (const std::size_t i : std::set<std::size_t>{0, last / 2, last}) {
+    Scan scan;
+    if (read(files_[i], scan).empty()) scans.push_back(std::move(scan));
+  }
+  T_lidar_sensor_ = find_sensor_origin(scans);
+}
+
+std::string KittiFolder::note() const {
+  return T_lidar_sensor_ ? describe_sensor_origin(*T_lidar_sensor_) : "";
 }
 
 std::optional<Frame> KittiFolder::next() {
@@ -157,19 +182,11 @@ std::optional<Frame> KittiFolder::next() {
   Frame frame;
   frame.name = file.stem().string();
   frame.scan.stamp = times_[next_++];
-  frame.fault = read_floats(file, buffer_);
+  frame.fault = read(file, frame.scan);
   if (!frame.fault.empty()) {
     ++counters_.faulty_scans;
-    frame.fault = file.filename().string() + ": " + frame.fault;
-    return frame;
-  }
-  fill(buffer_, frame.scan);
-  frame.fault = read_rings(rings_, frame.name, frame.scan);
-  if (!frame.fault.empty()) {
-    ++counters_.faulty_scans;
-    const Time stamp = frame.scan.stamp;
-    frame.scan = Scan();
-    frame.scan.stamp = stamp;
+    frame.scan = {};
+    frame.scan.stamp = times_[next_ - 1];
   }
   return frame;
 }

@@ -52,6 +52,10 @@ class ScanSource {
 
   /// Scans in all, for progress; 0 when that is not known beforehand.
   [[nodiscard]] virtual int expected_scans() const { return 0; }
+
+  /// What a user has to know about the recording as a whole, as a line; empty when there is
+  /// nothing.
+  [[nodiscard]] virtual std::string note() const { return {}; }
 };
 
 enum class RecordingFormat { kAutomatic, kKitti, kOuster };

@@ -137,6 +137,7 @@ void report(const nlohmann::json& results) {
 int replay(const ReplayOptions& options, const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common).autonomy;
   const auto source = open_input(options);
+  if (const std::string note = source->note(); !note.empty()) spdlog::info("{}", note);
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth, config.objects);
   core::Timings timings;

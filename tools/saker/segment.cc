@@ -42,6 +42,7 @@ int segment(const SegmentOptions& options, const CommonOptions& common) {
   segmentation::Segmentation stage(config.segmentation, config.objects);
   const auto source =
       lidar::open_recording(options.input, lidar::RecordingFormat::kAutomatic, options.metadata);
+  if (const std::string note = source->note(); !note.empty()) spdlog::info("{}", note);
   const OutputFolder out(common);
   out.folder("labels");
   out.folder("probability");

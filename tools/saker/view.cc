@@ -58,7 +58,8 @@ std::vector<detection::LabelledScan> labelled_window(const std::deque<lidar::Fra
     window.push_back(
         {frame.scan.stamp, estimate.T_odom_lidar,
          std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points)),
-         std::make_shared<const lidar::Labels>(segmentation.segment(frame.scan))});
+         std::make_shared<const lidar::Labels>(segmentation.segment(frame.scan)), nullptr,
+         frame.scan.T_lidar_sensor.translation().cast<double>()});
   }
   return window;
 }
