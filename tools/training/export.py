@@ -50,7 +50,7 @@ def description(file, state, figures, args):
         "scans": state["scans"],
         "seed": state["seed"],
         "steps": state["step"],
-        "steps_planned": state["steps"],
+        "plans": state["plans"],
         "batch": state["batch"],
         "rate": state["rate"],
         "widths": state["config"]["widths"],

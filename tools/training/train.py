@@ -71,16 +71,23 @@ class Trainer:
         self.optimizer = torch.optim.AdamW(self.model.parameters(), lr=args.rate, weight_decay=0.01)
         self.step = 0
         self.seconds = 0.0
+        self.plans = []  # [first step, steps planned from there on]: more than one where a run was taken up with another --steps
         self.checkpoint = args.out / "checkpoint.pt"
         if self.checkpoint.exists():
             self._resume()
         elif args.start:
             self.model.load_state_dict(torch.load(args.start, map_location=args.device)["average"])
             self.average.load_state_dict(self.model.state_dict())
+        self._plan()
+
+    def _plan(self):
+        if not self.plans or self.plans[-1][1] != self.args.steps:
+            self.plans.append([self.step, self.args.steps])
 
     def _resume(self):
         state = torch.load(self.checkpoint, map_location=self.args.device)
         self.seconds = state["seconds"]
+        self.plans = state.get("plans", [[0, state["steps"]]])
         self.step = state["step"]
         self.model.load_state_dict(state["model"])
         self.average.load_state_dict(state["average"])
@@ -90,7 +97,7 @@ class Trainer:
         state = {"step": self.step, "config": self.model.config, "model": self.model.state_dict(),
                  "average": self.average.state_dict(), "optimizer": self.optimizer.state_dict(),
                  "seed": self.args.seed, "steps": self.args.steps, "scans": len(dataset.files(self.args.scans)),
-                 "seconds": self.seconds, "device": self.args.device, "batch": self.args.batch, "rate": self.args.rate}
+                 "seconds": self.seconds, "device": self.args.device, "batch": self.args.batch, "rate": self.args.rate, "plans": self.plans}
         temporary = self.checkpoint.with_suffix(".new")
         torch.save(state, temporary)
         temporary.replace(self.checkpoint)
