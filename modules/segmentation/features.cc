@@ -7,9 +7,8 @@
 namespace saker::segmentation {
 namespace {
 
-constexpr int kReach = 3;               // pixels over which a neighbour is sought
-constexpr float kNothing = 2.0F;        // step to no return at all: sky
-constexpr float kUsualSpacing = 0.01F;  // rad between rows, where there is one row only
+constexpr int kReach = 3;         // pixels over which a neighbour is sought
+constexpr float kNothing = 2.0F;  // step to no return at all: sky
 
 float step(float from, float to) {
   if (!(to > 0)) return kNothing;
@@ -43,42 +42,11 @@ float slope_between(const Eigen::Vector3f& low, const Eigen::Vector3f& high,
 
 }  // namespace
 
-void Features::find_row_elevations(const RangeImage& image) {
-  elevation_.assign(static_cast<std::size_t>(image.rows), NAN);
-  for (int row = 0; row < image.rows; ++row) {
-    float sum = 0;
-    int count = 0;
-    const std::size_t begin = static_cast<std::size_t>(row) * image.columns;
-    for (std::size_t i = begin; i < begin + image.columns; ++i) {
-      if (!image.valid(i)) continue;
-      sum += image.points[i].z() / image.range[i];
-      ++count;
-    }
-    if (count > 0)
-      elevation_[row] = std::asin(std::clamp(sum / static_cast<float>(count), -1.0F, 1.0F));
-  }
-}
-
-/// rad to the next row below that has returns; above it where there is none.
-float Features::row_spacing(int row) const {
-  const auto rows = static_cast<int>(elevation_.size());
-  for (int next = row + 1; next < rows; ++next) {
-    if (std::isfinite(elevation_[next])) return std::abs(elevation_[row] - elevation_[next]);
-  }
-  for (int next = row - 1; next >= 0; --next) {
-    if (std::isfinite(elevation_[next])) return std::abs(elevation_[row] - elevation_[next]);
-  }
-  return kUsualSpacing;
-}
-
 const std::vector<float>& Features::compute(const RangeImage& image) {
   ground_.estimate(image);
-  find_row_elevations(image);
   const std::size_t pixels = image.size();
   const Eigen::Vector3f up = ground_.up();
   values_.assign(kChannelCount * pixels, 0.0F);
-  std::size_t row_of_spacing = pixels;
-  float spacing = kUsualSpacing;
   for (std::size_t i = 0; i < pixels; ++i) {
     if (!image.valid(i)) continue;
     const float range = image.range[i], height = ground_.height()[i];
@@ -93,9 +61,6 @@ const std::vector<float>& Features::compute(const RangeImage& image) {
     value[6 * pixels] = step(range, low == i ? 0 : image.range[low]);
     value[7 * pixels] = low == i ? 0 : slope_between(image.points[low], image.points[i], up);
     value[8 * pixels] = image.points[i].dot(up) / range;
-    const std::size_t row = i / image.columns;
-    if (row != row_of_spacing) spacing = row_spacing(static_cast<int>(row)), row_of_spacing = row;
-    value[9 * pixels] = std::clamp(std::log(range * spacing / 0.3F + 1e-6F) / 2, -2.0F, 2.0F);
   }
   return values_;
 }

@@ -12,7 +12,7 @@ namespace saker::segmentation {
 /// so there is one definition. Everything is geometry: simulated reflectivity is unlike any real
 /// one. All values lie in about −3 … 3 without further normalisation and are 0 where nothing
 /// returned.
-inline constexpr std::array<const char*, 10> kChannels = {
+inline constexpr std::array<const char*, 9> kChannels = {
     "valid",        // 1 where there is a return
     "log_range",    // ln(range / 10 m)
     "height",       // above the local ground, 3 m, −1 … 4
@@ -22,7 +22,6 @@ inline constexpr std::array<const char*, 10> kChannels = {
     "lower_step",   // the same to the row below
     "slope",        // of the line from the pixel below, in right angles, −1 … 1
     "elevation",    // sine, over the local horizontal
-    "row_pitch",    // ln(metres to the next lower beam at this range / 0.3 m) / 2, −2 … 2
 };
 inline constexpr int kChannelCount = static_cast<int>(kChannels.size());
 
@@ -35,11 +34,7 @@ class Features {
   const std::vector<float>& compute(const RangeImage& image);
 
  private:
-  void find_row_elevations(const RangeImage& image);
-  [[nodiscard]] float row_spacing(int row) const;
-
   GroundHeight ground_;
-  std::vector<float> elevation_;  ///< rad, mean of each row; NaN for one without returns
   std::vector<float> values_;
 };
 

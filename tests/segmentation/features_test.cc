@@ -39,20 +39,6 @@ TEST(Features, OfTheGroundAreLevelAndOfAWallUpright) {
   EXPECT_NEAR(values[7 * pixels + wall], 1, 0.05);
 }
 
-/// Every second beam left out: the way to the next one is twice as long.
-TEST(Features, TellHowFarApartTheBeamsAre) {
-  RangeImage dense, sparse;
-  std::vector<float> few;
-  const std::vector<float> even = {4, 3, 2, 1, 0, -1, -2, -3, -4, -5, -6, -7, -8, -9, -10, -11};
-  for (std::size_t i = 0; i < even.size(); i += 2) few.push_back(even[i]);
-  project(MadeScan{.rows = 16, .elevation_deg = even}.organised(), dense);
-  project(MadeScan{.rows = 8, .elevation_deg = few}.organised(), sparse);
-  Features of_dense, of_sparse;
-  const float one = of_dense.compute(dense)[9 * dense.size() + 10 * 1024 + 5];
-  const float two = of_sparse.compute(sparse)[9 * sparse.size() + 5 * 1024 + 5];
-  EXPECT_NEAR(two - one, std::log(2.0F) / 2, 0.01);
-}
-
 TEST(Features, DoNotDependOnWhatWasComputedBefore) {
   RangeImage one, other;
   project(MadeScan{}.organised(), one);
