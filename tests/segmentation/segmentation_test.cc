@@ -125,7 +125,7 @@ TEST_F(SpoiltModel, IsTakenAsLongAsItIsWhole) {
 
 TEST_F(SpoiltModel, IsRefusedInOneLineThatSaysWhy) {
   EXPECT_NE(refusal().find("not found"), std::string::npos) << "no description";
-  describe(with("- trunk", "- tree"));
+  describe(with("classes:\n- other", "classes:\n- tree"));
   EXPECT_NE(refusal().find("tree"), std::string::npos) << "another class";
   describe(with("outputs:\n", "outputs:\n- one_more\n"));
   EXPECT_NE(refusal().find("one an output"), std::string::npos) << "an output without a class";
