@@ -45,10 +45,13 @@ Sidecar read_sidecar(const std::filesystem::path& file) {
   } catch (const YAML::Exception& error) {
     throw Error(file.string() + ": not YAML: " + error.msg);
   }
-  return {read_key<std::vector<std::string>>(root, "outputs", file),
-          read_key<std::vector<std::string>>(root, "classes", file),
-          read_key<std::vector<std::string>>(root, "channels", file),
-          read_key<std::string>(root, "sha256", file)};
+  Sidecar sidecar;
+  sidecar.classes = read_key<std::vector<std::string>>(root, "classes", file);
+  sidecar.outputs =
+      root["outputs"] ? read_key<std::vector<std::string>>(root, "outputs", file) : sidecar.classes;
+  sidecar.channels = read_key<std::vector<std::string>>(root, "channels", file);
+  sidecar.sha256 = read_key<std::string>(root, "sha256", file);
+  return sidecar;
 }
 
 std::vector<int> check_sidecar(const Sidecar& sidecar, const std::filesystem::path& file,
@@ -63,7 +66,7 @@ std::vector<int> check_sidecar(const Sidecar& sidecar, const std::filesystem::pa
   for (const std::string& name : sidecar.classes) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw Error(file.string() + ": class " + name + ", expected one of " + joined(names));
+      throw Error(file.string() + ": " + name + " in classes, expected one of " + joined(names));
     class_of.push_back(static_cast<int>(found - names.begin()));
   }
   for (std::size_t k = 0; k < names.size(); ++k) {

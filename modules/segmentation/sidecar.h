@@ -11,7 +11,8 @@ namespace saker::segmentation {
 /// What a model is: the file beside the weights, MODEL.yaml beside MODEL.onnx. Besides what is read
 /// here it holds the provenance: sensors, scenario, seed, commit, steps, figures.
 struct Sidecar {
-  std::vector<std::string> outputs;   ///< what the network tells apart, in its order
+  std::vector<std::string>
+      outputs;  ///< what the network tells apart, in its order; else its classes
   std::vector<std::string> classes;   ///< of the class table, one an output
   std::vector<std::string> channels;  ///< in the order of its input
   std::string sha256;                 ///< of the weights' file
