@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -24,7 +25,10 @@ class ConfigFolder : public testing::Test {
     fs::remove_all(folder_);
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "saker_config_folder";
+  /// One a test: tests run side by side.
+  fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      (std::string("saker_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(ConfigFolder, AFileIsFoundAsGivenOrInTheFolder) {
