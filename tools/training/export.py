@@ -44,7 +44,7 @@ def description(file, state, figures, args):
         "channels": inputs.CHANNEL_NAMES,
         "sha256": hashlib.sha256(file.read_bytes()).hexdigest(),
         "normalisation": "none: modules/segmentation/features.h gives values in about -3 ... 3",
-        "real_scans": "none",
+        "real_scans": args.real_scans,
         "scenario": args.scenario,
         "scenario_seed": args.scenario_seed,
         "scans": state["scans"],
@@ -69,6 +69,7 @@ def main():
     parser.add_argument("--scans", type=pathlib.Path, required=True, help="the folder that it was trained on")
     parser.add_argument("--scenario", required=True)
     parser.add_argument("--scenario-seed", type=int, required=True)
+    parser.add_argument("--real-scans", default="none", help="what of the scans was no simulation")
     args = parser.parse_args()
     torch.set_num_threads(1)
     model = evaluation.load(args.checkpoint)
