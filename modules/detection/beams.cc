@@ -94,28 +94,39 @@ int Beams::through(const objects::Cuboid& box) const {
   return count;
 }
 
-int Beams::filled(const objects::Cuboid& box, int parts, int count) const {
-  const Eigen::Array3f half = 0.5f * box.size.cast<float>();
-  std::vector<int> ended(static_cast<std::size_t>(parts), 0);
-  for_each_towards(box, [&](const auto&, const Eigen::Vector3f& to) {
-    if ((to.array().abs() > half).any()) return;
-    const auto part =
-        static_cast<int>((to.x() + half.x()) / (2 * half.x()) * static_cast<float>(parts));
-    ++ended[static_cast<std::size_t>(std::min(part, parts - 1))];
+int Beams::through(const objects::Cuboid& box, const objects::Cuboid& body) const {
+  const Eigen::Isometry3f T_body_box = (body.pose.inverse() * box.pose).cast<float>();
+  const Eigen::Array3f half = 0.5f * body.size.cast<float>();
+  int count = 0;
+  for_each_in(box, [&](const auto&, const Eigen::Vector3f& to, const Passage& in) {
+    count += in.leave <= 1 && ((T_body_box * to).array().abs() > half).any();
   });
-  return static_cast<int>(std::ranges::count_if(ended, [&](int n) { return n >= count; }));
+  return count;
 }
 
-double Beams::nearest(const objects::Cuboid& box, int count, double least_m) const {
-  std::vector<float> nearest(static_cast<std::size_t>(count),
-                             std::numeric_limits<float>::infinity());  // ascending
-  const float face = -0.5f * static_cast<float>(box.size.x());
+int Beams::ended(const objects::Cuboid& box) const {
+  const Eigen::Array3f half = 0.5f * box.size.cast<float>();
+  int count = 0;
+  for_each_towards(box, [&](const auto&, const Eigen::Vector3f& to) {
+    count += (to.array().abs() <= half).all();
+  });
+  return count;
+}
+
+double Beams::nearest(const objects::Cuboid& box, int count, double least_m, const Bow& bow) const {
+  std::vector<double> nearest(static_cast<std::size_t>(count),
+                              std::numeric_limits<double>::infinity());  // ascending
+  const double face = -0.5 * box.size.x();
   for_each_in(box, [&](const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Passage& in) {
+    constexpr int kSteps = 8;
     const float leave = std::min(in.leave, 1.0f);
-    const Eigen::Vector3f way = to - from;
-    if ((leave - in.enter) * way.norm() < least_m) return;
-    const float x = from.x() + (way.x() > 0 ? in.enter : leave) * way.x() - face;
-    if (x >= nearest.back()) return;
+    double x = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kSteps; ++i) {
+      const float share = in.enter + (leave - in.enter) * static_cast<float>(i) / kSteps;
+      const Eigen::Vector3f at = from + share * (to - from);
+      x = std::min(x, static_cast<double>(at.x()) - face + bow.at(static_cast<double>(at.y())));
+    }
+    if (x < least_m || x >= nearest.back()) return;
     nearest.pop_back();
     nearest.insert(std::ranges::upper_bound(nearest, x), x);
   });

@@ -1,11 +1,26 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "detection/window.h"
 #include "objects/models.h"
 
 namespace saker::detection {
+
+/// How far a face stands back from its outermost line: a superellipse of the fourth order.
+struct Bow {
+  double depth = 0;       ///< m, at its corners
+  double half_width = 1;  ///< m
+  double middle = 0;      ///< m, across
+
+  /// \param across m
+  [[nodiscard]] double at(double across) const {
+    const double share = std::min(std::abs(across - middle) / half_width, 1.0);
+    return depth * share * share * share * share;
+  }
+};
 
 /// What the beams of a window went through on their way: space that is free, the other half of
 /// what a scan tells (Elfes, "Using Occupancy Grids for Mobile Robot Perception and Navigation",
@@ -18,16 +33,19 @@ class Beams {
   /// \return beams (of those that the window keeps) that entered it, left it and ended behind it.
   [[nodiscard]] int through(const objects::Cuboid& box) const;
 
-  /// \return of that many equal parts of the box, one after another along its x axis, those in
-  /// which `count` beams and more ended.
-  [[nodiscard]] int filled(const objects::Cuboid& box, int parts, int count) const;
+  /// \return of the beams that go through it those that do not end in `body`, either
+  [[nodiscard]] int through(const objects::Cuboid& box, const objects::Cuboid& body) const;
 
-  /// How near to the low face of the box's x axis beams come within the box: what they met there,
-  /// if anything, lies farther on.
-  /// \param count   of beams that must come so near
-  /// \param least_m  way within the box from which on a beam counts
-  /// \return m from that face; infinite where there are fewer
-  [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m) const;
+  /// \return beams that ended in it
+  [[nodiscard]] int ended(const objects::Cuboid& box) const;
+
+  /// How near to the low face of the box's x axis, a face that bows away from x along y, beams come
+  /// within the box: the most that the face's outermost line lies farther on.
+  /// \param count    of beams that must come so near
+  /// \param least_m  from the low face: what comes nearer, as through glass or arches, tells
+  /// nothing \return m from the low face; infinite where there are fewer
+  [[nodiscard]] double nearest(const objects::Cuboid& box, int count, double least_m,
+                               const Bow& bow) const;
 
  private:
   /// Calls `take(from, to)` for each beam towards the box, in the box's frame.

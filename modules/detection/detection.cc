@@ -38,6 +38,7 @@ std::vector<Eigen::Vector3d> moved(const SE3& T, const std::vector<Eigen::Vector
 Detection::Detection(const DetectionConfig& config, const objects::ClassTable& table)
     : config_(core::checked(config, "detection")),
       table_(table),
+      fitter_(make_fitter(config.vehicle)),
       ground_(config.ground),
       surroundings_(config.surroundings) {}
 
@@ -130,10 +131,10 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
   for (const int i : indices) {
     const ClassPoint& p = window_.cuboids[i];
     points.push_back({(T_local_level * p.position.cast<double>()).cast<float>(),
-                      static_cast<float>(window_.seconds[p.scan]), p.probability});
+                      static_cast<float>(window_.seconds[p.scan])});
   }
   const Sight sight{moved(T_local_level, window_.sensors), beams_, surroundings_, T_level_local};
-  const VehicleFit fit = fit_vehicle(points, sight, config_.vehicle);
+  const VehicleFit fit = fit_vehicle(points, sight, *fitter_, config_.vehicle);
   if (fit.status == VehicleStatus::too_large || fit.status == VehicleStatus::parted) {
     split_vehicle(indices, splits, result);
   }

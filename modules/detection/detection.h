@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -97,6 +98,7 @@ class Detection {
   DetectionConfig config_;
   objects::ClassTable table_;
   Window window_;
+  std::unique_ptr<const VehicleFitter> fitter_;
   Ground ground_;
   Surroundings surroundings_;
   Beams beams_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "segmentation/beam_spacing.h"
 #include "segmentation/ground_height.h"
 #include "segmentation/range_image.h"
 
@@ -11,17 +12,21 @@ namespace saker::segmentation {
 /// What the network is given for each pixel. The training calls the same code (training_inputs.cc),
 /// so there is one definition. Everything is geometry: simulated reflectivity is unlike any real
 /// one. All values lie in about −3 … 3 without further normalisation and are 0 where nothing
-/// returned.
-inline constexpr std::array<const char*, 9> kChannels = {
+/// returned. Neighbours are `kBaseline` away at least, ranges averaged (beam_spacing.h): neither
+/// depends on how dense a sensor's beams are.
+inline constexpr std::array<const char*, 12> kChannels = {
     "valid",        // 1 where there is a return
     "log_range",    // ln(range / 10 m)
     "height",       // above the local ground, 3 m, −1 … 4
     "fine_height",  // above the local ground, 0.3 m, −2 … 2
     "normal_up",    // the surface normal's component along up; 0: no surface
-    "right_step",   // asinh((range of the right neighbour − range) / 0.3 m) / 3; nothing there: 2
-    "lower_step",   // the same to the row below
-    "slope",        // of the line from the pixel below, in right angles, −1 … 1
+    "right_edge",   // asinh((range of the next pixel − range) / 0.3 m) / 3; nothing there: 2
+    "lower_edge",   // the same to the pixel below
+    "right_step",   // the same to the neighbour to the right
+    "lower_step",   // the same to the neighbour below
+    "slope",        // of the line from the neighbour below, in right angles, −1 … 1
     "elevation",    // sine, over the local horizontal
+    "row_pitch",    // ln(distance to the next lower beam at this range / 0.3 m) / 2, −2 … 2
 };
 inline constexpr int kChannelCount = static_cast<int>(kChannels.size());
 
@@ -34,6 +39,8 @@ class Features {
   const std::vector<float>& compute(const RangeImage& image);
 
  private:
+  BeamSpacing spacing_;
+  RangeImage smooth_;
   GroundHeight ground_;
   std::vector<float> values_;
 };

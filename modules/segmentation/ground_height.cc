@@ -35,37 +35,44 @@ bool joined(float range_a, float range_b, float share) {
   return range_a > 0 && range_b > 0 && std::abs(range_a - range_b) < 0.3F + share * range_a;
 }
 
-/// The difference across pixel i: both neighbours where they are there, else one of them and
-/// itself.
-bool difference(const RangeImage& image, std::size_t before, std::size_t i, std::size_t after,
-                float share, Eigen::Vector3f& d) {
-  const bool back = joined(image.range[i], image.range[before], share) && before != i;
-  const bool ahead = joined(image.range[i], image.range[after], share) && after != i;
-  if (!back && !ahead) return false;
-  d = image.points[ahead ? after : i] - image.points[back ? before : i];
-  return true;
+/// What is the farthest on pixel i's surface of the pixels at `steps`, half of it … 1 times `by`
+/// from it; i where none is.
+template <class At>
+std::size_t on_surface(const RangeImage& image, std::size_t i, int steps, float share, At&& at) {
+  for (; steps > 0; steps /= 2) {
+    const std::size_t other = at(steps);
+    if (joined(image.range[i], image.range[other], share)) return other;
+  }
+  return i;
 }
 
 }  // namespace
 
-void GroundHeight::find_normals(const RangeImage& image) {
+void GroundHeight::find_normals(const RangeImage& image, const BeamSpacing& spacing) {
   normals_.assign(image.size(), Eigen::Vector3f::Zero());
-  const std::size_t columns = image.columns;
+  const int width = image.columns;
   for (std::size_t i = 0; i < image.size(); ++i) {
     if (!image.valid(i)) continue;
-    const std::size_t row = i / columns, column = i % columns, begin = row * columns;
-    const std::size_t left = begin + (column + columns - 1) % columns;
-    const std::size_t right = begin + (column + 1) % columns;
-    const std::size_t above = row > 0 ? i - columns : i;
-    const std::size_t below = i + columns < image.size() ? i + columns : i;
-    Eigen::Vector3f across, down;
-    if (!difference(image, left, i, right, 0.05F, across)) continue;
-    if (!difference(image, above, i, below, 0.3F, down)) continue;
-    const Eigen::Vector3f normal = across.cross(down);
+    const int row = static_cast<int>(i) / width, column = static_cast<int>(i) % width;
+    const int side = spacing.columns(image.range[i], kBaseline) % width;
+    const auto in_row = [&](int d) {
+      return static_cast<std::size_t>(row * width + (column + d + width) % width);
+    };
+    const auto in_column = [&](int d) { return static_cast<std::size_t>((row + d) * width + column); };
+    const auto left = on_surface(image, i, side, 0.05F, [&](int d) { return in_row(-d); });
+    const auto right = on_surface(image, i, side, 0.05F, in_row);
+    if (left == right) continue;
+    const int up = row - spacing.row_above(row, image.range[i], kBaseline);
+    const int down = spacing.row_below(row, image.range[i], kBaseline) - row;
+    const auto above = on_surface(image, i, up, 0.3F, [&](int d) { return in_column(-d); });
+    const auto below = on_surface(image, i, down, 0.3F, in_column);
+    if (above == below) continue;
+    const Eigen::Vector3f normal =
+        (image.points[right] - image.points[left]).cross(image.points[below] - image.points[above]);
     const float length = normal.norm();
     if (!(length > 1e-6F)) continue;
-    const float side = normal.dot(image.points[i]) > 0 ? -1.0F : 1.0F;
-    normals_[i] = normal * (side / length);
+    const float facing = normal.dot(image.points[i]) > 0 ? -1.0F : 1.0F;
+    normals_[i] = normal * (facing / length);
   }
 }
 
@@ -188,8 +195,8 @@ float GroundHeight::ground_at(float x, float y) const {
          fv * ((1 - fu) * corner[kCells] + fu * corner[kCells + 1]);
 }
 
-void GroundHeight::estimate(const RangeImage& image) {
-  find_normals(image);
+void GroundHeight::estimate(const RangeImage& image, const BeamSpacing& spacing) {
+  find_normals(image, spacing);
   find_up();
   level(image);
   sort_into_cells(image);

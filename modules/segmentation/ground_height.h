@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "segmentation/beam_spacing.h"
 #include "segmentation/range_image.h"
 
 namespace saker::segmentation {
@@ -29,10 +30,11 @@ class GroundHeight {
   [[nodiscard]] const Eigen::Vector3f& up() const { return up_; }             ///< unit, lidar frame
   [[nodiscard]] const std::vector<float>& height() const { return height_; }  ///< m; 0: no return
 
-  void estimate(const RangeImage& image);
+  /// \param spacing  of the image.
+  void estimate(const RangeImage& image, const BeamSpacing& spacing);
 
  private:
-  void find_normals(const RangeImage& image);
+  void find_normals(const RangeImage& image, const BeamSpacing& spacing);
   void find_up();
   void level(const RangeImage& image);
   [[nodiscard]] float usual_level();

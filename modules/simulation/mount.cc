@@ -41,7 +41,7 @@ struct Habit {
 };
 
 constexpr std::array<Habit, 5> kHabits = {{
-    {1.4, 2.3, 0.015, 15, 0.4, 0.1, 0.01},
+    {1.4, 2.5, 0.015, 15, 0.4, 0.1, 0.01},
     {2.5, 3.5, 0.02, 14, 0.4, 0.06, 0.01},
     {0.5, 1.0, 0.03, 2, 0.4, 0.3, 0.05},
     {1.0, 1.9, 0.1, 1.6, 0.3, 0.4, 0.2},
@@ -59,7 +59,7 @@ MountKind any_kind(core::Rng& rng) {
 
 double any_height(MountKind kind, const Habit& habit, core::Rng& rng) {
   if (kind == MountKind::air) return log_uniform(habit.low_m, habit.high_m, rng);
-  if (kind == MountKind::car && rng.chance(0.5)) return rng.normal(1.76, 0.06);
+  if (kind == MountKind::car && rng.chance(0.25)) return rng.normal(1.76, 0.06);
   return rng.uniform(habit.low_m, habit.high_m);
 }
 

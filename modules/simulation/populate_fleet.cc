@@ -89,13 +89,14 @@ void build_queue(Site& site, const Lot& lot) {
   }
 }
 
-/// Vans and lorries that stand in the lane beside the kerb to unload.
+/// Vans, lorries and buses that stand in the lane beside the kerb to unload.
 void double_park(Site& site, const Lot& lot) {
-  constexpr FleetKind kKinds[] = {van, large_van, step_van, box_van, box_truck};
+  constexpr FleetKind kKinds[] = {van,       large_van, step_van, box_van,
+                                  box_truck, city_bus,  coach,    minibus};
   core::Rng& rng = site.rng;
   const int count = rng.index(4);
   for (int i = 0; i < count; ++i) {
-    const FleetShape shape = random_shape(kKinds[rng.index(5)], rng);
+    const FleetShape shape = random_shape(kKinds[rng.index(std::size(kKinds))], rng);
     const double s = rng.uniform(lot.from, lot.to);
     const double d =
         lot.side * (lot.d + lot.strip->width - shape.width / 2 + rng.uniform(-0.4, 0.5));

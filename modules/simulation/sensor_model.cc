@@ -10,6 +10,8 @@ namespace saker::simulation {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kNoiseSpread = 1.0;  ///< ln of a unit's noise over its sheet's, at most
+constexpr double kBiasSpread = 1.4;   ///< the same of what one beam's ranges are off by
 
 /// Range of 63 % of the returns from 10 % reflectivity: what a sheet's range at that comes from.
 double sensitivity(double range_at_tenth_m) {
@@ -168,6 +170,13 @@ void move_beams(BeamTable& table, const Eigen::Isometry3f& T) {
   for (Eigen::Vector3f& direction : table.directions) direction = T.linear() * direction;
 }
 
+/// What this unit's ranges scatter by: those of units of one type differ by several times, and the
+/// calibration between beams may be worse than the scatter of each.
+void vary_noise(ReceiverConfig& receiver, core::Rng& rng) {
+  receiver.noise_m *= std::exp(rng.uniform(-kNoiseSpread, kNoiseSpread));
+  receiver.beam_bias_m *= std::exp(rng.uniform(-kNoiseSpread, kBiasSpread));
+}
+
 /// Where the lower one is: a hand's breadth below, often upside down (as Argoverse 2's is).
 Eigen::Isometry3f T_upper_lower(core::Rng& rng) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -238,6 +247,7 @@ SensorUnit make_unit(SensorChoice choice, core::Rng& rng) {
   SensorUnit unit;
   unit.name = m.name;
   unit.receiver = m.receiver;
+  vary_noise(unit.receiver, rng);
   unit.range_step_m = m.range_step_m;
   unit.period_s = 1 / m.rate_hz;
   const int columns =

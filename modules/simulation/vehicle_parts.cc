@@ -23,6 +23,12 @@ float any(core::Rng& rng, double low, double high) {
   return static_cast<float>(rng.uniform(low, high));
 }
 
+/// Clean glass mirrors nearly all; what is tinted and dusty answers like dark paint.
+Material any_glass(std::uint16_t label, core::Rng& rng) {
+  if (rng.chance(0.5)) return {label, 0.05F, 0.03F, 0.998F, any(rng, 0.02, 0.4), 0};
+  return {label, any(rng, 0.03, 0.15), 0.04F, any(rng, 0.4, 0.97), any(rng, 0, 0.3), 0};
+}
+
 }  // namespace
 
 Parts make_parts(World& world, const Palette& palette, std::uint16_t label, core::Rng& rng) {
@@ -32,7 +38,7 @@ Parts make_parts(World& world, const Palette& palette, std::uint16_t label, core
   if (palette.paint == Paint::black) paint.reflectivity = any(rng, 0.02, 0.05);
   parts.paint = world.add(paint);
   parts.second = world.add(any_cover(label, rng));
-  parts.glass = world.add({label, 0.05F, 0.03F, 0.998F, any(rng, 0.02, 0.4), 0});
+  parts.glass = world.add(any_glass(label, rng));
   parts.interior = world.add({label, any(rng, 0.05, 0.3), 0.1F, 0, 0, 0});
   parts.rubber = world.add({label, any(rng, 0.04, 0.1), 0.04F, 0, 0, 0});
   parts.rim = world.add({label, any(rng, 0.1, 0.5), 0.2F, 0.5F, 0.15F, 0});

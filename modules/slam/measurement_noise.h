@@ -76,8 +76,8 @@ struct MeasurementNoiseConfig {
             "but no more than this: vehicles of one height differ by 0.1 m at most, and a few view "
             "cells from one side say the same of it");
     v.field("fitted_class_width_m", fitted_class_width_m, {0.01, 10}, "m",
-            "detection.vehicle.width_sd_m, by which a width is known that no view measured: "
-            "windows state a part of it (prior_windows), those of a cell count once. Only narrows "
+            "by which a width is known that no view measured: windows state a part of it "
+            "(detection.vehicle.faces.prior_windows), those of a cell count once. Only narrows "
             "what maps, those that are planned with, too, say of widths");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");

@@ -283,8 +283,6 @@ TEST(UncertaintyFor, ThePapersEstimatorSeesLengthsBestFromObliquelyInFrontWorstF
 TEST(FittedNoise, WhatIsSetInTwoModulesIsOneValue) {
   EXPECT_EQ(uncertainty::FitConfig().whole_width_sd_m,
             slam::MeasurementNoiseConfig().fitted_width_sd_m);
-  EXPECT_EQ(detection::VehicleConfig().width_sd_m,
-            slam::MeasurementNoiseConfig().fitted_class_width_m);
 }
 
 /// Active mapping's is what all views from one side share, the graph's what each of its cells errs

@@ -32,13 +32,6 @@ TEST(Beams, ThatEndInABoxOrInFrontOfItDidNot) {
   EXPECT_EQ(two_beams({3, 0, 0}, {10, 5, 0}).through(box_at({5, 0, 0})), 0);
 }
 
-TEST(Beams, ThatEndInABoxFillItsPartsNoOthers) {
-  EXPECT_EQ(two_beams({5.5, 0, 0}, {10, 5, 0}).filled(box_at({5, 0, 0}), 4, 1), 1);
-  EXPECT_EQ(two_beams({3, 0, 0}, {10, 0, 0}).filled(box_at({5, 0, 0}), 4, 1), 0);
-  EXPECT_EQ(two_beams({4.1f, 0, 0}, {5.9f, 0, 0}).filled(box_at({5, 0, 0}), 4, 1), 2);
-  EXPECT_EQ(two_beams({4.1f, 0, 0}, {5.9f, 0, 0}).filled(box_at({5, 0, 0}), 1, 2), 1);
-}
-
 TEST(Beams, ThatPassBesideABoxDidNot) {
   const Beams beams = two_beams({10, 0, 0}, {10, 5, 0});
   EXPECT_EQ(beams.through(box_at({5, 0.8, 0})), 0);
@@ -69,26 +62,46 @@ TEST(Beams, OfAnEmptyWindowAreNone) {
 
 /// Low face at x = 4.
 TEST(Beams, ComeAsNearAsTheyEnterOrLeave) {
-  EXPECT_NEAR(two_beams({10, 0, 0}, {10, 5, 0}).nearest(box_at({5, 0, 0}), 1, 0.2), 0, 1e-6);
+  EXPECT_NEAR(two_beams({10, 0, 0}, {10, 5, 0}).nearest(box_at({5, 0, 0}), 1, 0, {}), 0, 1e-6);
   const Beams across = two_beams({10, 0, 0}, {7.5, 0, 0});  // the second enters at (5.25, 1.5)
-  EXPECT_NEAR(across.nearest(box_at({5.5, 1, 0}), 1, 0.2), 5.25 - 4.5, 1e-5);
+  EXPECT_NEAR(across.nearest(box_at({5.5, 1, 0}), 1, 0, {}), 5.25 - 4.5, 1e-5);
 }
 
 TEST(Beams, ComeAsNearAsTheOneOfSoMany) {
   const Beams beams = two_beams({10, 0, 0}, {5.5, -1, 0});  // the second enters at y = 0.5
-  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 1, 0.2), 0, 1e-6);
-  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 2, 0.2), 4.125 - 4, 1e-5);
-  EXPECT_TRUE(std::isinf(beams.nearest(box_at({5, 0, 0}), 3, 0.2)));
+  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 1, 0, {}), 0, 1e-6);
+  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 2, 0, {}), 4.125 - 4, 1e-5);
+  EXPECT_TRUE(std::isinf(beams.nearest(box_at({5, 0, 0}), 3, 0, {})));
 }
 
 TEST(Beams, ThatEndWithinABoxCameAsNear) {
-  EXPECT_NEAR(two_beams({5, 0, 0}, {0, 9, 0}).nearest(box_at({5, 0, 0}), 1, 0.2), 0, 1e-6);
+  EXPECT_NEAR(two_beams({5, 0, 0}, {0, 9, 0}).nearest(box_at({5, 0, 0}), 1, 0, {}), 0, 1e-6);
 }
 
-TEST(Beams, ThatEnterABoxByLessThanTheyMustTellNothing) {
-  const Beams beams = two_beams({4.1f, 0, 0}, {0, 9, 0});
-  EXPECT_TRUE(std::isinf(beams.nearest(box_at({5, 0, 0}), 1, 0.2)));
-  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 1, 0.05), 0, 1e-6);
+TEST(Beams, ThatComeNearerThanTheLeastTellNothing) {
+  const Beams beams = two_beams({10, 0, 0}, {0, 9, 0});
+  EXPECT_NEAR(beams.nearest(box_at({5, 0, 0}), 1, 0, {}), 0, 1e-6);
+  EXPECT_TRUE(std::isinf(beams.nearest(box_at({5, 0, 0}), 1, 0.2, {})));
+}
+
+TEST(Beams, ComeLessNearToAFaceThatBowsAway) {
+  const Beams beams = two_beams({5, 0, 0}, {0, 9, 0});
+  const Bow bow{0.3, 0.5};
+  EXPECT_NEAR(beams.nearest(box_at({5, 0.5, 0}), 1, 0, bow), 0.3, 1e-6);
+  EXPECT_NEAR(beams.nearest(box_at({5, 0.25, 0}), 1, 0, bow), 0.3 / 16, 1e-6);
+}
+
+TEST(Beams, ThatEndInTheBodyGoThroughNoneOfItsParts) {
+  const Beams beams = two_beams({7, 0, 0}, {0, 9, 0});
+  objects::Cuboid body = box_at({6, 0, 0});
+  body.size.x() = 4;
+  EXPECT_EQ(beams.through(box_at({5, 0, 0})), 1);
+  EXPECT_EQ(beams.through(box_at({5, 0, 0}), body), 0);
+}
+
+TEST(Beams, ThatEndInABoxAreCounted) {
+  const Beams beams = two_beams({5, 0, 0}, {10, 0, 0});
+  EXPECT_EQ(beams.ended(box_at({5, 0, 0})), 1);
 }
 
 }  // namespace

@@ -20,7 +20,12 @@ struct Made {
   explicit Made(const MadeScan& scan, const Eigen::Vector3f& up = Eigen::Vector3f::UnitZ())
       : ground(up), tilt(scan.tilt), sensor_m(scan.height_m) {
     project(scan.organised(), image);
-    ground.estimate(image);
+    estimate();
+  }
+  void estimate() {
+    BeamSpacing spacing;
+    spacing.measure(image);
+    ground.estimate(image, spacing);
   }
   [[nodiscard]] float true_height(std::size_t i) const {
     return (tilt * image.points[i]).z() + sensor_m;
@@ -72,7 +77,7 @@ TEST(GroundHeight, IsNotPulledDownByReflectionsFromBelow) {
     made.image.points[pixel] = {-30, 1, -14};
     made.image.range[pixel] = made.image.points[pixel].norm();
   }
-  made.ground.estimate(made.image);
+  made.estimate();
   for (std::size_t i = 63 * 1024; i < 64 * 1024; ++i) EXPECT_NEAR(made.ground.height()[i], 0, 0.1);
 }
 
@@ -84,7 +89,7 @@ TEST(GroundHeight, IsNotPulledDownByAFewReflectionsCloseBy) {
     made.image.points[pixel] = mirrored + Eigen::Vector3f(0, 0.03F * static_cast<float>(i), 0);
     made.image.range[pixel] = made.image.points[pixel].norm();
   }
-  made.ground.estimate(made.image);
+  made.estimate();
   for (std::size_t i = 45 * 1024; i < made.image.size(); ++i) {
     if (made.image.points[i].z() > -2.1F) {
       ASSERT_NEAR(made.ground.height()[i], 0, 0.1);
@@ -93,11 +98,8 @@ TEST(GroundHeight, IsNotPulledDownByAFewReflectionsCloseBy) {
 }
 
 TEST(GroundHeight, OfAnImageOfNothingIsZero) {
-  RangeImage image;
-  project(MadeScan{.height_m = 1000, .wall_m = 1e6F}.organised(), image);
-  GroundHeight ground;
-  ground.estimate(image);
-  for (const float h : ground.height()) ASSERT_TRUE(std::isfinite(h));
+  const Made made({.height_m = 1000, .wall_m = 1e6F});
+  for (const float h : made.ground.height()) ASSERT_TRUE(std::isfinite(h));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ import model as network
 import train
 
 
-GROUND = classes.OUTPUTS.index("ground")
+GROUND, CAR = classes.OUTPUTS.index("ground"), classes.OUTPUTS.index("car")
 
 
 def made_scan(rows=64, columns=1024):
@@ -56,6 +56,17 @@ class Training(unittest.TestCase):
             seen = np.isfinite(changed[..., 0])
             ground = height[seen & (changed_label == GROUND)]
             self.assertLess(np.median(np.abs(ground)), 0.1)
+
+    def test_what_is_mixed_in_stands_where_its_column_looks(self):
+        """A nearer car of another scan takes the place of the wall behind it and casts no other change."""
+        points, label = made_scan()
+        others, other_labels = points * 0.8, np.full_like(label, CAR)
+        for seed in range(6):  # some sectors, some things
+            changed, changed_label = augmentation.mix(points, label, others, other_labels, np.random.default_rng(seed))
+            taken = changed_label == CAR
+            self.assertTrue(taken.any())
+            np.testing.assert_array_equal(changed[~taken], points[~taken])
+            np.testing.assert_allclose(changed[taken], 0.8 * points[taken], atol=1e-3)
 
     def test_network_without_normalisation_gives_the_same(self):
         torch.manual_seed(1)

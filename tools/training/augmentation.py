@@ -5,7 +5,10 @@ import numpy as np
 
 import labels as classes
 
+LOG_NOISE = (np.log(0.002), np.log(0.03))  # m
+LOG_WAVE = (np.log(0.4), np.log(5))  # m
 GROUND = classes.OUTPUTS.index("ground")
+THINGS = [classes.OUTPUTS.index(name) for name in ("car", "van", "truck", "bus", "other_vehicle", "person", "two_wheeler", "pole")]
 
 
 def rotation(roll, pitch, yaw):
@@ -30,6 +33,28 @@ def mirror(points, labels):
     return points[:, ::-1] * np.float32([1, -1, 1]), labels[:, ::-1]
 
 
+def turned(points, labels, by):
+    """What the sensor would have seen turned by so many columns (azimuth falls from column to column, range_image.h)."""
+    yaw = -2 * np.pi * by / points.shape[1]
+    return np.roll(points, by, 1) @ rotation(0, 0, yaw).T, np.roll(labels, by, 1)
+
+
+def mix(points, labels, others, other_labels, rng):
+    """Things and sectors of another scan of the same sensor at the same height, so that a vehicle is known by its own shape wherever
+    it stands: scene and instance swapping of PolarMix (Xiao et al., NeurIPS 2022, sections 3.2 and 3.3), in the range image."""
+    others, other_labels = turned(others, other_labels, rng.integers(points.shape[1]))
+    points, labels = points.copy(), labels.copy()
+    taken = np.isin(other_labels, THINGS)
+    if rng.random() < 0.4:
+        first, width = rng.integers(points.shape[1]), rng.integers(points.shape[1] // 8, points.shape[1] // 2)
+        taken = ((np.arange(points.shape[1]) - first) % points.shape[1] < width)[None, :] | np.zeros_like(taken)
+    else:
+        nearer = np.linalg.norm(others, axis=-1) < np.nan_to_num(np.linalg.norm(points, axis=-1), nan=np.inf)
+        taken &= nearer
+    points[taken], labels[taken] = others[taken], other_labels[taken]
+    return points, labels
+
+
 def tilt(points, labels, rng, most=0.17):
     """The sensor banks; the network must find up by itself."""
     return points @ rotation(*rng.uniform(-most, most, 2), 0).T, labels
@@ -43,6 +68,18 @@ def stretch(points, labels, rng):
     return points @ shape.T, labels
 
 
+def warp(points, labels, rng, waves=5):
+    """No surface is as flat as a simulated one: plane waves of random lengths bend everything, by at most a fifth in slope each."""
+    changed = points.copy()
+    for _ in range(waves):
+        length = np.exp(rng.uniform(*LOG_WAVE))
+        direction, towards = (v / np.linalg.norm(v) for v in rng.normal(size=(2, 3)))
+        phase = points @ (2 * np.pi / length * direction).astype(np.float32) + np.float32(rng.uniform(0, 2 * np.pi))
+        slope = rng.uniform(0, 0.2)
+        changed += np.sin(phase)[..., None] * (slope * length / (2 * np.pi) * towards).astype(np.float32)
+    return changed, labels
+
+
 def rough_ground(points, labels, rng):
     """Grass and gravel: the ground of some columns is rough by centimetres, more so in some rows."""
     rows, columns = labels.shape
@@ -54,10 +91,11 @@ def rough_ground(points, labels, rng):
 
 
 def noise(points, labels, rng):
-    """Range noise, and beams whose elevation is not quite what the calibration says."""
+    """Range noise, beams whose ranges are all off by as much, and beams whose elevation is not quite what the calibration says."""
     distance = np.linalg.norm(points, axis=-1, keepdims=True)
-    sigma = rng.uniform(0.003, 0.04)
-    points = points * (1 + rng.normal(0, sigma, distance.shape).astype(np.float32) / np.maximum(distance, 0.5))
+    error = rng.normal(0, np.exp(rng.uniform(*LOG_NOISE)), distance.shape)
+    error += rng.normal(0, np.exp(rng.uniform(*LOG_NOISE)), (len(points), 1, 1))
+    points = points * (1 + error.astype(np.float32) / np.maximum(distance, 0.5))
     level = np.linalg.norm(points[..., :2], axis=-1)
     shift = rng.normal(0, rng.uniform(0, 0.003), (len(points), 1)).astype(np.float32)
     lifted = points.copy()
@@ -114,6 +152,8 @@ def augment(points, labels, rng):
     points, labels = noise(points, labels, rng)
     if rng.random() < 0.7:
         points, labels = stretch(points, labels, rng)
+    if rng.random() < 0.6:
+        points, labels = warp(points, labels, rng)
     if rng.random() < 0.3:
         points, labels = rough_ground(points, labels, rng)
     if rng.random() < 0.7:

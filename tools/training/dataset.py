@@ -1,5 +1,6 @@
 """Labelled scans (SemanticKITTI layout: DIR/velodyne/*.bin, DIR/labels/*.label and, where the recording has them, ring numbers
 DIR/ring/*.u8 or *.u16; also inside folders of DIR) as samples for the network."""
+import csv
 import multiprocessing
 import pathlib
 
@@ -12,6 +13,7 @@ import labels as classes
 
 ROWS, COLUMNS = 80, 1024  # of the images that are kept: what modules/segmentation/range_image.h gives at most
 LEAST_ROWS = 8  # fewer hold nothing to learn from: a sensor that is hidden
+MIXED = 0.5  # share of the scans that get parts of another one
 STEP = 16  # rows of a batch are a multiple of this
 RARE = [classes.OUTPUTS.index(name) for name in ("trunk", "pole", "van", "truck", "bus", "other_vehicle")]
 
@@ -83,6 +85,25 @@ class Images:
         self.points = np.memmap(folder / "images.f32", np.float32, "r", shape=shape + (3,))
         self.truths = np.memmap(folder / "images.u8", np.uint8, "r", shape=shape)
         self.sizes = np.load(folder / "images.npy")
+        self.sensors = self._sensors(folder)
+
+    def _sensors(self, folder):
+        """(sensor and frame, height) of every scan; None where the folder does not tell."""
+        table = folder / "sensors.csv"
+        if not table.exists():
+            return None
+        with table.open() as file:
+            rows = {row["name"]: row for row in csv.DictReader(file)}
+        of = [rows[pathlib.Path(name).stem] for name in self.names]
+        return [(row["sensor"] + row["frame"], float(row["height_m"])) for row in of]
+
+    def alike(self, i, chosen):
+        """Those of the chosen scans that the same sensor took at about the same height."""
+        if self.sensors is None:
+            return np.array([], int)
+        sensor, height = self.sensors[i]
+        return np.array([k for k in chosen if k != i and self.sensors[k][0] == sensor and (self.sizes[k] == self.sizes[i]).all()
+                         and abs(self.sensors[k][1] - height) < max(0.25, 0.08 * height)], int)
 
     @staticmethod
     def _project(folder, shape):
@@ -108,6 +129,7 @@ class Batches(torch.utils.data.Dataset):
     def __init__(self, images, chosen, batch, width, seed):
         self.images, self.batch, self.width, self.seed = images, batch, width, seed
         odds = np.array([self._odds(i) for i in chosen])
+        self.partners = {i: images.alike(i, chosen) for i in chosen}
         filled = -(-images.sizes[chosen, 0] // STEP)
         self.alike = [(STEP * k, np.array(chosen)[filled == k], odds[filled == k]) for k in np.unique(filled)]
         self.share = np.array([share.sum() for _, _, share in self.alike]) / odds.sum()
@@ -127,7 +149,10 @@ class Batches(torch.utils.data.Dataset):
         rows = -(-rows // beams // STEP) * STEP
         samples, wanted = [], max(1, self.batch * 64 // rows)
         while len(samples) < wanted:
-            points, label = self.images[rng.choice(scans, p=odds / odds.sum())]
+            scan = rng.choice(scans, p=odds / odds.sum())
+            points, label = self.images[scan]
+            if len(self.partners[scan]) and rng.random() < MIXED:
+                points, label = augmentation.mix(points, label, *self.images[rng.choice(self.partners[scan])], rng)
             if beams > 1:
                 points, label = augmentation.fewer_beams(points, label, beams, rng)
             samples += self._crops(points, label, rows, rng)

@@ -1,0 +1,54 @@
+#include "detection/size_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace saker::detection {
+namespace {
+
+constexpr double kHighest = 2.6;  // m
+
+std::string_view likeliest(double top) {
+  const auto kinds = vehicle_kinds();
+  return std::ranges::max_element(kinds, {},
+                                  [&](const VehicleKind& kind) {
+                                    return log_likelihood_of_top(top, kind, kHighest, 0.06);
+                                  })
+      ->name;
+}
+
+TEST(SizePrior, WeightsAreThoseOfAllVehicles) {
+  double sum = 0;
+  for (const VehicleKind& kind : vehicle_kinds()) sum += kind.weight;
+  EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+TEST(SizePrior, TopTellsTheKind) {
+  EXPECT_EQ(likeliest(1.7), "suv");
+  EXPECT_EQ(likeliest(2.1), "van");
+  EXPECT_NE(likeliest(2.6), "van");
+}
+
+TEST(SizePrior, NoKindIsAsWideAsTwoVehiclesUnlessThatIsDoubtful) {
+  EXPECT_TRUE(is_of_some_kind({{{4.5, 0.2}, {1.8, 0.1}}}, 4));
+  EXPECT_TRUE(is_of_some_kind({{{11.5, 0.2}, {2.5, 0.1}}}, 4));
+  EXPECT_FALSE(is_of_some_kind({{{4.5, 0.2}, {3.5, 0.1}}}, 4));
+  EXPECT_TRUE(is_of_some_kind({{{4.5, 0.2}, {3.5, 0.5}}}, 4));
+}
+
+TEST(SizePrior, AHiddenTopExcludesNoHigherKind) {
+  const auto kinds = vehicle_kinds();
+  const auto van = std::ranges::find(kinds, "van", &VehicleKind::name);
+  const auto car = std::ranges::find(kinds, "medium car", &VehicleKind::name);
+  const auto odds = [&](double top) {
+    return log_likelihood_of_top(top, *van, kHighest, 0.06) -
+           log_likelihood_of_top(top, *car, kHighest, 0.06);
+  };
+  EXPECT_LT(odds(1.45), -3);
+  EXPECT_NEAR(odds(0.9), 0, 1);
+}
+
+}  // namespace
+}  // namespace saker::detection
