@@ -20,7 +20,7 @@ struct MeasurementNoiseConfig {
   double shared_width = 1;
   double shared_end_per_m = 5;
   double fitted_end_sd_m = 0.28;
-  double fitted_width_sd_m = 0.3;
+  double fitted_width_sd_m = 0.1;
   double fitted_hidden_side_m = 0.1;
   double fitted_class_width_m = 0.12;
   double shared_root = 4;
@@ -70,8 +70,8 @@ struct MeasurementNoiseConfig {
             "known than the fitted covariance has it");
     v.field("fitted_width_sd_m", fitted_width_sd_m, {0.01, 10}, "m",
             "standard deviation that windows state of a vehicle's width where they show both of "
-            "its sides, as fit.whole_width_sd_m: what they state beyond that is where the hidden "
-            "side is");
+            "its sides: what they state beyond that is where the hidden side is; at most "
+            "fit.whole_width_sd_m, from which on the fit takes the width for not measured");
     v.field("fitted_hidden_side_m", fitted_hidden_side_m, {0, 10}, "m",
             "but no more than this: vehicles of one height differ by 0.1 m at most, and a few view "
             "cells from one side say the same of it");
