@@ -304,8 +304,7 @@ FaceDensity face_density(const FaceView& view, double free_m, const FaceConfig& 
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const double at = grid[i], beyond = free_m - std::max(at, hits);
     density.probability[i] =
-        log_sum(log_in + seen[i] +
-                    log_passed(beyond, config.passed_m, view.alone, config.unpassed),
+        log_sum(log_in + seen[i] + log_passed(beyond, config.passed_m, view.alone, config.unpassed),
                 log_sum(log_corner_share + log_corner(at, hits, beyond, view, config),
                         log_out + log_bound(at, hits, view.end, config))) +
         log_free(at, free_m, view.end, config);

@@ -119,7 +119,8 @@ class Face {
   }
 
   [[nodiscard]] FaceDensity density(double range) const {
-    const FaceView face{strips_, hits_, middle_, half_, axis_ == 0, seen(), corner(), alone_, range};
+    const FaceView face{strips_, hits_,    middle_, half_, axis_ == 0,
+                        seen(),  corner(), alone_,  range};
     return face_density(face, free_from(), config_);
   }
 
@@ -169,7 +170,9 @@ class Face {
   }
 
   /// Probability that the hits show the face: something may stand before it or about it.
-  [[nodiscard]] double seen() const { return t_.looked[axis_][end_] * (1 - config_.hidden) * alone_; }
+  [[nodiscard]] double seen() const {
+    return t_.looked[axis_][end_] * (1 - config_.hidden) * alone_;
+  }
 
   /// The same of a face beside it, up to its corner with this one.
   [[nodiscard]] double corner() const {

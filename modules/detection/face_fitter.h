@@ -94,8 +94,9 @@ struct FaceConfig {
     v.field("passed_m", passed_m, {0.005, 1}, "m",
             "by which beams pass a seen face: their distance from each other");
     v.field("unpassed", unpassed, {0.001, 1}, "", "share of seen faces that they do not pass so");
-    v.field("corner", corner, {0.001, 0.999}, "",
-            "probability that a face that was looked at was followed to the corner of an unseen one");
+    v.field(
+        "corner", corner, {0.001, 0.999}, "",
+        "probability that a face that was looked at was followed to the corner of an unseen one");
     v.field("shape_sd_m", shape_sd_m, {0.001, 1}, "m",
             "standard deviation of a face against a box's, the same in all windows");
     v.field("side_m", side_m, {0.01, 1}, "m",

@@ -58,7 +58,9 @@ void GroundHeight::find_normals(const RangeImage& image, const BeamSpacing& spac
     const auto in_row = [&](int d) {
       return static_cast<std::size_t>(row * width + (column + d + width) % width);
     };
-    const auto in_column = [&](int d) { return static_cast<std::size_t>((row + d) * width + column); };
+    const auto in_column = [&](int d) {
+      return static_cast<std::size_t>((row + d) * width + column);
+    };
     const auto left = on_surface(image, i, side, 0.05F, [&](int d) { return in_row(-d); });
     const auto right = on_surface(image, i, side, 0.05F, in_row);
     if (left == right) continue;
