@@ -18,13 +18,13 @@
 /// d_j ~ Exp(roundness) for what stands back, and n_j ~ N(0, noise²) of range and calibration. A
 /// share `stray` of strips (mirrors, leaves) may be anywhere. All of this only where the face was
 /// seen: with probability q_f = looked · (1 − hidden) · (own / (own + others)), others being points
-/// of no object about that face (occluders). Otherwise hits are a bound: e_f is beyond them,
-/// uniformly within `depth`, or, where a face beside it was looked at and shows the corner, by as
-/// much as corners are rounded, N(bow/2, (0.75 bow)²).
+/// of no object about that face (occluders). Else hits are a bound: with `corner`, where a face
+/// beside it was looked at, they end at its corner, e_f − max u ~ Exp(0.6 bow), otherwise e_f is
+/// anywhere beyond them within `depth`.
 ///
-/// Free-space evidence, B_f. A beam that comes within the bowed face by more than the spread of
-/// shapes contradicts it: B_f = Φ((v + slack − e_f) / free_sd), v being where the n-th of the beams
-/// comes nearest. Beams share the vehicle's shape: they count once, not each.
+/// Free-space evidence, B_f. Of all beams, which share the shape, the n-th nearest counts, at v:
+/// Φ((v + slack − e_f) / free_sd). Beams beside a seen face or corner pass it, v − max(e_f, u) ~
+/// Exp(passed) or Exp(0.6 bow), but for `unpassed`; beside what hides it v is anywhere within 3 m.
 ///
 /// Heading. The strips of each face that was looked at lie on one line, N(0, side), or, leaves and
 /// mirrors, anywhere. Both ψ and ψ + 90° are tried, the posterior's evidence decides.
