@@ -53,7 +53,7 @@ Measurement car(double range, double yaw) {
   m.covariance = Vector9d::LinSpaced(0.01, 0.09).asDiagonal();
   m.covariance(5, 8) = m.covariance(8, 5) = 0.02;
   state_ends(m, 0.02, 0.02);         // both were looked at
-  m.covariance(7, 7) = 0.15 * 0.15;  // both sides were seen
+  m.covariance(7, 7) = 0.09 * 0.09;  // both sides were seen
   m.front_log_odds = 2;
   return m;
 }
