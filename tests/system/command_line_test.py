@@ -18,7 +18,7 @@ class CommandLine(ProgramTest):
     def test_the_configuration_of_the_papers_estimator_can_be_read(self):
         run = saker("config", "--config", ROOT / "configs/replica.yaml")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("method: hull", run.stdout)
+        self.assertIn("fitter: hull", run.stdout)
 
     def test_a_setting_shows_in_the_effective_configuration(self):
         default = saker("config").stdout

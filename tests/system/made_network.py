@@ -3,8 +3,8 @@
 import hashlib
 import json
 
-CHANNELS = ["valid", "log_range", "height", "fine_height", "normal_up", "right_step", "lower_step", "slope",
-            "elevation"]
+CHANNELS = ["valid", "log_range", "height", "fine_height", "normal_up", "right_edge", "lower_edge", "right_step", "lower_step", "slope",
+            "elevation", "row_pitch"]
 FLOAT, INTS = 1, 7  # TensorProto.DataType, AttributeProto.AttributeType
 
 

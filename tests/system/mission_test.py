@@ -11,7 +11,7 @@ SITE = """kind: mission
 mission:
   site: {street_m: 80, parked_share: 0.35, targets: 4, prior_sd_m: 0.5}
   wind: {mean_mps: 1, gust_mps: 0.3}
-  capture: {rows: 32, columns: 512}
+  capture: {rows: 64, columns: 512}
 """
 ROBOTS = """  - {name: R1, x_m: -3, lot_m: [-100, -60, 0, -60, 0, 60, -100, 60]}
   - {name: R2, x_m: 3, yaw_deg: 90, lot_m: [0, -60, 100, -60, 100, 60, 0, 60]}
