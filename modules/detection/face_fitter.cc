@@ -18,7 +18,6 @@ constexpr double kTypical[2] = {4.4, 1.8};  // m, length and width of a car
 struct Turned {
   double heading = 0;
   Places places;
-  std::vector<Eigen::Vector2d> sensors;
   std::array<Extent, 2> extent;                   ///< where most strips reach to
   std::array<std::array<double, 2>, 2> looked{};  ///< at [axis][low, high], 0 … 1
 };
@@ -35,12 +34,13 @@ Turned turned(const Places& places, const VehicleView& view, double heading,
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(-heading).toRotationMatrix();
   t.places.reserve(places.size());
   for (const Eigen::Vector2d& p : places) t.places.push_back(R * p);
-  for (const Eigen::Vector3d& s : view.sight.sensors) t.sensors.push_back(R * s.head<2>());
+  std::vector<Eigen::Vector2d> sensors;
+  for (const Eigen::Vector3d& s : view.sight.sensors) sensors.push_back(R * s.head<2>());
   for (int k = 0; k < 2; ++k) {
     const Reach reach = reach_along(t.places, k, config);
     t.extent[k].low = reach.low;
     t.extent[k].high = reach.high;
-    for (const Eigen::Vector2d& s : t.sensors) {
+    for (const Eigen::Vector2d& s : sensors) {
       t.looked[k][0] = std::max(t.looked[k][0], looked_at(t.extent[k].low - s[k], config));
       t.looked[k][1] = std::max(t.looked[k][1], looked_at(s[k] - t.extent[k].high, config));
     }
@@ -180,13 +180,14 @@ class Face {
     return std::max(low, high) * config_.corner * alone_;
   }
 
-  /// Share of the points about the end that are the vehicle's.
+  /// Share of the points about an end that are the vehicle's; of sides 1.
   [[nodiscard]] double alone() const {
+    if (axis_ != 0) return 1;
     constexpr double kInward = 0.4, kOutward = 0.15;  // m
     const std::array<double, 2> height = {0, 2};
     const Eigen::Vector2d across(middle_ - half_, middle_ + half_);
     const double others =
-        axis_ == 0 ? view_.sight.others(box(hits_ - kInward, hits_ + kOutward, across, height)) : 0;
+        view_.sight.others(box(hits_ - kInward, hits_ + kOutward, across, height));
     const double own = static_cast<double>(std::ranges::count_if(t_.places, [&](const auto& p) {
       return (end_ == 0 ? -p[axis_] : p[axis_]) > hits_ - kInward;
     }));

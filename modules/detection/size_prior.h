@@ -26,8 +26,8 @@ struct VehicleKind {
 
 [[nodiscard]] std::span<const VehicleKind> vehicle_kinds();
 
-/// Whether some kind of vehicle is so long and wide, within `most_sd` standard deviations of its
-/// own and of the measurement. \param plan length and width as measured
+/// Whether some kind of vehicle is as long and wide as was measured, within `most_sd` standard
+/// deviations of the kind and of the measurement together.
 [[nodiscard]] bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd);
 
 /// Log-likelihood of the highest points of a vehicle of that kind. They lie at its top, or, rarely,

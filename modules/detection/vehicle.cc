@@ -104,7 +104,7 @@ VehicleStatus judge(const Plan& plan, double top, const VehicleConfig& config) {
   if (longer > config.most_length_m || shorter > config.most_width_m) {
     return VehicleStatus::too_large;
   }
-  constexpr double kMostSd = 4;
+  constexpr double kMostSd = 4;  // beyond, it is two beside each other: to be split
   const auto measured = [&](int k) {
     return Normal{plan.axis[k].size(), std::sqrt(plan.axis[k].covariance(1, 1))};
   };

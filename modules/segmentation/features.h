@@ -12,8 +12,8 @@ namespace saker::segmentation {
 /// What the network is given for each pixel. The training calls the same code (training_inputs.cc),
 /// so there is one definition. Everything is geometry: simulated reflectivity is unlike any real
 /// one. All values lie in about −3 … 3 without further normalisation and are 0 where nothing
-/// returned. Neighbours are `kBaseline` away at least, ranges averaged (beam_spacing.h): neither
-/// depends on how dense a sensor's beams are.
+/// returned. Neighbours are `kBaseline` away at least, but for edges the next pixel; ranges are
+/// averaged (beam_spacing.h): but for edges and pitch nothing depends on how dense beams are.
 inline constexpr std::array<const char*, 12> kChannels = {
     "valid",        // 1 where there is a return
     "log_range",    // ln(range / 10 m)

@@ -97,7 +97,7 @@ class Images:
         of = [rows[pathlib.Path(name).stem] for name in self.names]
         return [(row["sensor"] + row["frame"], float(row["height_m"])) for row in of]
 
-    def alike(self, i, chosen):
+    def partners(self, i, chosen):
         """Those of the chosen scans that the same sensor took at about the same height."""
         if self.sensors is None:
             return np.array([], int)
@@ -129,7 +129,7 @@ class Batches(torch.utils.data.Dataset):
     def __init__(self, images, chosen, batch, width, seed):
         self.images, self.batch, self.width, self.seed = images, batch, width, seed
         odds = np.array([self._odds(i) for i in chosen])
-        self.partners = {i: images.alike(i, chosen) for i in chosen}
+        self.partners = {i: images.partners(i, chosen) for i in chosen}
         filled = -(-images.sizes[chosen, 0] // STEP)
         self.alike = [(STEP * k, np.array(chosen)[filled == k], odds[filled == k]) for k in np.unique(filled)]
         self.share = np.array([share.sum() for _, _, share in self.alike]) / odds.sum()
