@@ -37,12 +37,12 @@ double mean_absolute(std::span<const double> values) {
 
 double percentile(std::span<const double> values, double ratio) {
   if (values.empty()) return kNaN;
-  std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
-  const double place = std::clamp(ratio, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (place - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+  std::vector<double> all(values.begin(), values.end());
+  const double place = std::clamp(ratio, 0.0, 1.0) * static_cast<double>(all.size() - 1);
+  const auto low = all.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(all.begin(), low, all.end());
+  const double next = low + 1 == all.end() ? *low : *std::min_element(low + 1, all.end());
+  return *low + (place - std::floor(place)) * (next - *low);
 }
 
 double median(std::span<const double> values) { return percentile(values, 0.5); }

@@ -8,7 +8,16 @@
 namespace saker::detection {
 namespace {
 
-constexpr int kBins = 360;  // of azimuth: a vehicle at 30 m is ten of them wide
+constexpr int kBins = 360;   // of azimuth: a vehicle at 30 m is ten of them wide
+constexpr int kSlopes = 24;  // bins of slope, the first and the last with all that is steeper
+constexpr float kSteepest = 0.6F;
+
+/// Of a beam that rises by so much over a horizontal distance.
+int slope_bin(float rise, float distance) {
+  const float slope = rise / std::max(distance, 1e-3F);
+  const float at = (slope + kSteepest) * (static_cast<float>(kSlopes) / (2 * kSteepest));
+  return static_cast<int>(std::clamp(at, 0.0F, static_cast<float>(kSlopes - 1)));
+}
 
 float azimuth_bins(const Eigen::Vector3f& direction) {
   constexpr auto kPerRadian = static_cast<float>(kBins / (2 * M_PI));
@@ -21,11 +30,28 @@ struct Passage {
   float leave = 0;  ///< more than 1: it ends within
 };
 
+/// Bins of slope of the beams that may enter a box.
+struct Slopes {
+  int lowest = 0, highest = kSlopes - 1;
+};
+
+/// \param towards  from the sensor to the middle of the box
+/// \param reach    m, horizontally, of the box from its middle
+/// \param up       m, the same vertically
+Slopes slopes_towards(const Eigen::Vector3f& towards, float reach, float up) {
+  const float middle = towards.head<2>().norm();
+  const float nearest = middle - reach, farthest = middle + reach;
+  if (nearest <= 0) return {};
+  const float low = towards.z() - up, high = towards.z() + up;
+  return {slope_bin(low, low < 0 ? nearest : farthest),
+          slope_bin(high, high < 0 ? farthest : nearest)};
+}
+
 /// The segment against the box |x| ≤ half, slab by slab (Kay and Kajiya, SIGGRAPH 1986).
 std::optional<Passage> passage(const Eigen::Vector3f& from, const Eigen::Vector3f& to,
                                const Eigen::Vector3f& half) {
   Passage in{0, std::numeric_limits<float>::max()};
-  for (int k = 0; k < 3; ++k) {
+  for (const int k : {2, 0, 1}) {  // most beams pass above or below
     const float along = to[k] - from[k];
     if (along == 0) {
       if (std::abs(from[k]) > half[k]) return std::nullopt;
@@ -34,28 +60,34 @@ std::optional<Passage> passage(const Eigen::Vector3f& from, const Eigen::Vector3
     const float a = (-half[k] - from[k]) / along, b = (half[k] - from[k]) / along;
     in.enter = std::max(in.enter, std::min(a, b));
     in.leave = std::min(in.leave, std::max(a, b));
+    if (in.enter >= in.leave || in.enter >= 1) return std::nullopt;
   }
-  if (in.enter >= in.leave || in.enter >= 1) return std::nullopt;
   return in;
 }
 
 }  // namespace
 
 std::size_t Beams::bin(const Beam& beam) const {
-  const int azimuth = static_cast<int>(azimuth_bins(beam.end - sensors_[beam.scan]));
-  return static_cast<std::size_t>(beam.scan) * kBins + std::clamp(azimuth, 0, kBins - 1);
+  const Eigen::Vector3f along = beam.end - sensors_[beam.scan];
+  const int azimuth = std::clamp(static_cast<int>(azimuth_bins(along)), 0, kBins - 1);
+  const int slope = slope_bin(along.z(), along.head<2>().norm());
+  return (static_cast<std::size_t>(beam.scan) * kBins + azimuth) * kSlopes + slope;
 }
 
 void Beams::fill(const Window& window) {
   sensors_.clear();
   for (const Eigen::Vector3d& sensor : window.sensors) sensors_.push_back(sensor.cast<float>());
   // A counting sort.
-  first_.assign(sensors_.size() * kBins + 1, 0);
-  for (const Beam& beam : window.beams) ++first_[bin(beam)];
-  std::size_t sum = 0;
-  for (std::size_t& first : first_) sum += first, first = sum;
+  first_.assign(sensors_.size() * kBins * kSlopes + 1, 0);
+  bins_.resize(window.beams.size());
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    bins_[i] = static_cast<std::uint32_t>(bin(window.beams[i]));
+    ++first_[bins_[i]];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : first_) sum += first, first = sum;
   ends_.resize(window.beams.size());
-  for (const Beam& beam : window.beams) ends_[--first_[bin(beam)]] = beam.end;
+  for (std::size_t i = 0; i < bins_.size(); ++i) ends_[--first_[bins_[i]]] = window.beams[i].end;
 }
 
 template <class Take>
@@ -64,16 +96,20 @@ void Beams::for_each_towards(const objects::Cuboid& box, const Take& take) const
   const Eigen::Isometry3f T_box_level = box.pose.inverse().cast<float>();
   const Eigen::Vector3f half = 0.5f * box.size.cast<float>();
   const Eigen::Vector3f centre = box.pose.translation().cast<float>();
+  const Eigen::Matrix3f spread = T_box_level.linear().transpose().cwiseAbs();
+  const float up = spread.row(2).dot(half);
   for (std::size_t scan = 0; scan < sensors_.size(); ++scan) {
     const Eigen::Vector3f from = T_box_level * sensors_[scan];
     const Eigen::Vector3f towards = centre - sensors_[scan];
+    const Slopes slopes = slopes_towards(towards, half.norm(), up);
     const float sine = std::min(half.norm() / std::max(towards.head<2>().norm(), 1e-3f), 1.0f);
     const float reach = std::asin(sine) * static_cast<float>(kBins / (2 * M_PI)) + 1;
     const int middle = static_cast<int>(azimuth_bins(towards));
     const int bins = std::min(static_cast<int>(reach), kBins / 2 - 1);
     for (int b = middle - bins; b <= middle + bins; ++b) {
-      const std::size_t at = scan * kBins + (b + kBins) % kBins;
-      for (std::size_t i = first_[at]; i < first_[at + 1]; ++i) {
+      const std::size_t at = (scan * kBins + (b + kBins) % kBins) * kSlopes;
+      const std::uint32_t last = first_[at + slopes.highest + 1];
+      for (std::uint32_t i = first_[at + slopes.lowest]; i < last; ++i) {
         take(from, T_box_level * ends_[i]);
       }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "detection/window.h"
@@ -57,8 +58,9 @@ class Beams {
   [[nodiscard]] std::size_t bin(const Beam& beam) const;
 
   std::vector<Eigen::Vector3f> sensors_;  ///< of each scan
-  std::vector<Eigen::Vector3f> ends_;     ///< by scan and azimuth
-  std::vector<std::size_t> first_;        ///< of each bin in `ends_`, and the end of the last
+  std::vector<Eigen::Vector3f> ends_;     ///< by scan, azimuth and slope
+  std::vector<std::uint32_t> bins_;       ///< of each beam, kept for its memory
+  std::vector<std::uint32_t> first_;      ///< of each bin in `ends_`, and the end of the last
 };
 
 }  // namespace saker::detection

@@ -78,6 +78,17 @@ double most_of(std::vector<double>& outward) {
   return *it;
 }
 
+void set_reach(const Strips& strips, FaceStrips& faces) {
+  std::vector<double> low, high;
+  for (const StripRange& range : strips.ranges) {
+    if (range.low > range.high) continue;
+    low.push_back(-range.low);
+    high.push_back(range.high);
+  }
+  faces.low_reach = -most_of(low);
+  faces.high_reach = most_of(high);
+}
+
 /// Mean of the most of them that are together: the flat part of a face, not what stands before a
 /// part of it.
 double together(std::vector<double> outward) {
@@ -148,7 +159,7 @@ class PanelLikelihood {
   }
 
  private:
-  static constexpr double kFirst = -0.4, kLast = 1, kStep = 0.005;  // m
+  static constexpr double kFirst = -0.4, kLast = 0.6, kStep = 0.005;  // m
   double stray_;
   std::vector<double> table_;
 };
@@ -241,6 +252,8 @@ void blur(std::vector<double>& p, double sd) {
 
 FaceStrips strips_along(const Places& places, int axis, const FaceConfig& config) {
   const Strips strips(places, axis, config.strip_m);
+  FaceStrips faces;
+  set_reach(strips, faces);
   std::vector<LayerSum> sums(strips.ranges.size());
   for (const Eigen::Vector2d& p : places) {
     const std::size_t i = strips.index(p);
@@ -251,24 +264,12 @@ FaceStrips strips_along(const Places& places, int axis, const FaceConfig& config
   }
   constexpr std::size_t kDense = 3;  // points a strip and more: a lone one is none
   const int least = places.size() < kDense * sums.size() ? 1 : 2;
-  FaceStrips faces;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (sums[i].all < least) continue;
     faces.low.push_back({strips.across(i), -sums[i].low / sums[i].lows});
     faces.high.push_back({strips.across(i), sums[i].high / sums[i].highs});
   }
   return faces;
-}
-
-Reach reach_along(const Places& places, int axis, const FaceConfig& config) {
-  const Strips strips(places, axis, config.strip_m);
-  std::vector<double> low, high;
-  for (const StripRange& range : strips.ranges) {
-    if (range.low > range.high) continue;
-    low.push_back(-range.low);
-    high.push_back(range.high);
-  }
-  return {-most_of(low), most_of(high)};
 }
 
 double log_flat(const std::vector<Strip>& strips, const FaceConfig& config) {

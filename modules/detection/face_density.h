@@ -17,18 +17,14 @@ struct Strip {
   double outward = 0;  ///< m, along the face's outward normal
 };
 
+/// Of two opposite faces.
 struct FaceStrips {
   std::vector<Strip> low, high;
-};
-
-/// Where most strips reach to.
-struct Reach {
-  double low = 0, high = 0;
+  double low_reach = 0, high_reach = 0;  ///< m along the axis, where most strips reach to
 };
 
 /// \param places along the plan's axes
 /// \param axis   0: strips of the ends, 1: of the sides
-[[nodiscard]] Reach reach_along(const Places& places, int axis, const FaceConfig& config);
 [[nodiscard]] FaceStrips strips_along(const Places& places, int axis, const FaceConfig& config);
 
 /// How well strips lie on one line, wherever that is, log-likelihood.

@@ -18,6 +18,7 @@ constexpr double kTypical[2] = {4.4, 1.8};  // m, length and width of a car
 struct Turned {
   double heading = 0;
   Places places;
+  std::array<FaceStrips, 2> strips;
   std::array<Extent, 2> extent;                   ///< where most strips reach to
   std::array<std::array<double, 2>, 2> looked{};  ///< at [axis][low, high], 0 … 1
 };
@@ -37,9 +38,9 @@ Turned turned(const Places& places, const VehicleView& view, double heading,
   std::vector<Eigen::Vector2d> sensors;
   for (const Eigen::Vector3d& s : view.sight.sensors) sensors.push_back(R * s.head<2>());
   for (int k = 0; k < 2; ++k) {
-    const Reach reach = reach_along(t.places, k, config);
-    t.extent[k].low = reach.low;
-    t.extent[k].high = reach.high;
+    t.strips[k] = strips_along(t.places, k, config);
+    t.extent[k].low = t.strips[k].low_reach;
+    t.extent[k].high = t.strips[k].high_reach;
     for (const Eigen::Vector2d& s : sensors) {
       t.looked[k][0] = std::max(t.looked[k][0], looked_at(t.extent[k].low - s[k], config));
       t.looked[k][1] = std::max(t.looked[k][1], looked_at(s[k] - t.extent[k].high, config));
@@ -52,10 +53,8 @@ Turned turned(const Places& places, const VehicleView& view, double heading,
 double flatness(const Turned& t, const FaceConfig& config) {
   double sum = 0;
   for (int k = 0; k < 2; ++k) {
-    if (std::max(t.looked[k][0], t.looked[k][1]) < 0.5) continue;
-    const FaceStrips strips = strips_along(t.places, k, config);
-    if (t.looked[k][0] >= 0.5) sum += log_flat(strips.low, config);
-    if (t.looked[k][1] >= 0.5) sum += log_flat(strips.high, config);
+    if (t.looked[k][0] >= 0.5) sum += log_flat(t.strips[k].low, config);
+    if (t.looked[k][1] >= 0.5) sum += log_flat(t.strips[k].high, config);
   }
   return sum;
 }
@@ -110,9 +109,13 @@ std::pair<double, double> middle_and_half(const Turned& t, int across) {
 /// One face of a vehicle, with a frame whose x axis points outward.
 class Face {
  public:
-  Face(const Turned& t, int axis, int end, std::vector<Strip> strips, const VehicleView& view,
-       const FaceConfig& config)
-      : t_(t), axis_(axis), end_(end), strips_(std::move(strips)), view_(view), config_(config) {
+  Face(const Turned& t, int axis, int end, const VehicleView& view, const FaceConfig& config)
+      : t_(t),
+        axis_(axis),
+        end_(end),
+        strips_(end == 0 ? t.strips[axis].low : t.strips[axis].high),
+        view_(view),
+        config_(config) {
     std::tie(middle_, half_) = middle_and_half(t, 1 - axis);
     hits_ = axis == 0 ? last_places() : outermost(strips_);
     alone_ = alone();
@@ -197,24 +200,11 @@ class Face {
 
   const Turned& t_;
   int axis_, end_;
-  std::vector<Strip> strips_;
+  const std::vector<Strip>& strips_;
   const VehicleView& view_;
   const FaceConfig& config_;
   double middle_ = 0, half_ = 0, hits_ = 0, alone_ = 1;
 };
-
-/// The faces' posterior under one heading, all kinds together.
-struct Posterior {
-  double log_evidence = 0;
-  std::array<Extent, 2> axis;
-};
-
-SizeDensity size_density(const Turned& t, int axis, const VehicleView& view, double range,
-                         const FaceConfig& config) {
-  FaceStrips strips = strips_along(t.places, axis, config);
-  return {Face(t, axis, 0, std::move(strips.low), view, config).density(range),
-          Face(t, axis, 1, std::move(strips.high), view, config).density(range)};
-}
 
 double log_sum(const std::vector<double>& values) {
   const double most = *std::ranges::max_element(values);
@@ -223,65 +213,87 @@ double log_sum(const std::vector<double>& values) {
   return most + std::log(sum);
 }
 
-/// \param probability of each kind
-Extent mixture(const SizeDensity& density, int axis, const std::vector<double>& probability,
-               double prior_windows) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero(), weak_mean = mean;
-  Eigen::Matrix2d weak_second = Eigen::Matrix2d::Zero();
-  const auto kinds = vehicle_kinds();
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const Normal prior = kinds[k].plan[axis];
-    const auto weak = density.with({prior.mean, prior.sd * std::sqrt(prior_windows)});
-    mean += probability[k] * density.with(prior).mean;
-    weak_mean += probability[k] * weak.mean;
-    weak_second += probability[k] * weak.second;
+/// The faces' posterior under one heading.
+class Posterior {
+ public:
+  Posterior(const Turned& t, const VehicleView& view, double highest_m, const FaceConfig& config)
+      : config_(config),
+        range_(nearest_range(
+            Eigen::Rotation2Dd(t.heading) *
+                Eigen::Vector2d(t.extent[0].centre(), t.extent[1].centre()),
+            view.sight)),
+        size_{size_density(t, 0, view), size_density(t, 1, view)} {
+    for (const VehicleKind& kind : vehicle_kinds()) {
+      const Kind moments{size_[0].with(kind.plan[0]), size_[1].with(kind.plan[1])};
+      probability_.push_back(std::log(kind.weight) +
+                             log_likelihood_of_top(view.top, kind, highest_m, config.top_sd_m) +
+                             moments[0].log_evidence + moments[1].log_evidence);
+      kinds_.push_back(moments);
+    }
+    log_evidence_ = log_sum(probability_);
+    for (double& p : probability_) p = std::exp(p - log_evidence_);
   }
-  Eigen::Matrix2d covariance = weak_second - weak_mean * weak_mean.transpose();
-  covariance += 1e-6 * Eigen::Matrix2d::Identity();
-  covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);  // outward is down at the low face
-  return {-mean[0], mean[1], of_centre_and_size(covariance)};
-}
 
-Posterior posterior(const Turned& t, const VehicleView& view, double highest_m,
-                    const FaceConfig& config) {
-  const Eigen::Vector2d middle =
-      Eigen::Rotation2Dd(t.heading) * Eigen::Vector2d(t.extent[0].centre(), t.extent[1].centre());
-  const double range = nearest_range(middle, view.sight);
-  const SizeDensity length = size_density(t, 0, view, range, config);
-  const SizeDensity width = size_density(t, 1, view, range, config);
-  std::vector<double> log_p;
-  for (const VehicleKind& kind : vehicle_kinds()) {
-    log_p.push_back(std::log(kind.weight) +
-                    log_likelihood_of_top(view.top, kind, highest_m, config.top_sd_m) +
-                    length.with(kind.plan[0]).log_evidence + width.with(kind.plan[1]).log_evidence);
+  [[nodiscard]] double log_evidence() const { return log_evidence_; }
+
+  /// Along an axis, all kinds together.
+  [[nodiscard]] Extent extent(int axis) const {
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero(), weak_mean = mean;
+    Eigen::Matrix2d weak_second = Eigen::Matrix2d::Zero();
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      if (probability_[k] < kNever) continue;
+      const Normal prior = vehicle_kinds()[k].plan[axis];
+      const auto weak =
+          size_[axis].with({prior.mean, prior.sd * std::sqrt(config_.prior_windows)});
+      mean += probability_[k] * kinds_[k][axis].mean;
+      weak_mean += probability_[k] * weak.mean;
+      weak_second += probability_[k] * weak.second;
+    }
+    Eigen::Matrix2d covariance = weak_second - weak_mean * weak_mean.transpose();
+    covariance += 1e-6 * Eigen::Matrix2d::Identity();
+    covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);  // outward is down at the low face
+    return {-mean[0], mean[1], of_centre_and_size(covariance)};
   }
-  Posterior result;
-  result.log_evidence = log_sum(log_p);
-  std::vector<double> probability;
-  for (const double p : log_p) probability.push_back(std::exp(p - result.log_evidence));
-  result.axis = {mixture(length, 0, probability, config.prior_windows),
-                 mixture(width, 1, probability, config.prior_windows)};
-  return result;
-}
+
+  static constexpr double kNever = 1e-9;  ///< a probability that changes nothing
+
+ private:
+  using Kind = std::array<SizeDensity::Moments, 2>;
+
+  [[nodiscard]] SizeDensity size_density(const Turned& t, int axis, const VehicleView& view) const {
+    return {Face(t, axis, 0, view, config_).density(range_),
+            Face(t, axis, 1, view, config_).density(range_)};
+  }
+
+  const FaceConfig& config_;
+  double range_;
+  std::array<SizeDensity, 2> size_;
+  std::vector<Kind> kinds_;
+  std::vector<double> probability_;  ///< of each kind
+  double log_evidence_ = 0;
+};
 
 /// Low and high edge along an axis, of the plan whose heading lies across.
 Eigen::Vector2d edges_along(const Posterior& other, int axis, bool quarter_ahead) {
-  const Extent& along = other.axis[1 - axis];
+  const Extent along = other.extent(1 - axis);
   const bool opposite = quarter_ahead == (axis == 0);
   return opposite ? Eigen::Vector2d(-along.high, -along.low)
                   : Eigen::Vector2d(along.low, along.high);
 }
 
 /// The second moment of both headings about the likelier one.
-void add_doubt(const Posterior& other, bool quarter_ahead, Posterior& best) {
-  const double odds = std::exp(other.log_evidence - best.log_evidence);
+std::array<Extent, 2> with_doubt(const Posterior& best, const Posterior& other,
+                                 bool quarter_ahead) {
+  std::array<Extent, 2> axis = {best.extent(0), best.extent(1)};
+  const double odds = std::exp(other.log_evidence() - best.log_evidence());
   const double probability = odds / (1 + odds);
-  for (int axis = 0; axis < 2; ++axis) {
-    Extent& extent = best.axis[axis];
+  if (probability < Posterior::kNever) return axis;
+  for (int k = 0; k < 2; ++k) {
     const Eigen::Vector2d off =
-        edges_along(other, axis, quarter_ahead) - Eigen::Vector2d(extent.low, extent.high);
-    extent.covariance += of_centre_and_size(probability * off * off.transpose());
+        edges_along(other, k, quarter_ahead) - Eigen::Vector2d(axis[k].low, axis[k].high);
+    axis[k].covariance += of_centre_and_size(probability * off * off.transpose());
   }
+  return axis;
 }
 
 }  // namespace
@@ -290,14 +302,11 @@ Plan FaceFitter::fit(const VehicleView& view) const {
   const Heading heading = heading_of(view, config_);
   const Turned along = turned(view.places, view, heading.mean, config_);
   const Turned across = turned(view.places, view, heading.mean + M_PI / 2, config_);
-  Posterior a = posterior(along, view, highest_m_, config_);
-  Posterior b = posterior(across, view, highest_m_, config_);
-  if (a.log_evidence >= b.log_evidence) {
-    add_doubt(b, true, a);
-    return {along.heading, heading.sd, a.axis, along.extent};
+  const Posterior a(along, view, highest_m_, config_), b(across, view, highest_m_, config_);
+  if (a.log_evidence() >= b.log_evidence()) {
+    return {along.heading, heading.sd, with_doubt(a, b, true), along.extent};
   }
-  add_doubt(a, false, b);
-  return {across.heading, heading.sd, b.axis, across.extent};
+  return {across.heading, heading.sd, with_doubt(b, a, false), across.extent};
 }
 
 }  // namespace saker::detection

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace saker::detection {
 namespace {
@@ -13,11 +14,12 @@ class SquareCounter {
  public:
   explicit SquareCounter(double square) : per_m_(1 / static_cast<float>(square)) {}
 
-  /// Squares covered by the points, each moved to time 0.
-  int covered(std::span<const TimedPoint> points, const Eigen::Vector2f& velocity) {
+  /// Squares covered by the points, each moved to time 0; counts no farther than to `most`.
+  int covered(std::span<const TimedPoint> points, const Eigen::Vector2f& velocity, int most) {
     ++count_;
     int fresh = 0;
     for (const TimedPoint& p : points) {
+      if (fresh >= most) break;
       const Eigen::Vector2f at = (p.position - velocity * p.seconds) * per_m_;
       const int column = static_cast<int>(std::floor(at.x())) & (kEdge - 1);
       const int row = static_cast<int>(std::floor(at.y())) & (kEdge - 1);
@@ -54,7 +56,7 @@ Motion estimate_motion(std::span<const TimedPoint> points, double direction,
   if (points.empty() || last->seconds - first->seconds < config.least_seconds) return {};
   const std::vector<TimedPoint> some = evenly(points, config.most_points);
   SquareCounter counter(config.square_m);
-  const int at_rest = counter.covered(some, Eigen::Vector2f::Zero());
+  const int at_rest = counter.covered(some, Eigen::Vector2f::Zero(), std::numeric_limits<int>::max());
   int fewest = at_rest;
   Motion best;
   const int steps = static_cast<int>(config.fastest / config.step);
@@ -62,7 +64,7 @@ Motion estimate_motion(std::span<const TimedPoint> points, double direction,
     const Eigen::Vector2d along(std::cos(direction + turn), std::sin(direction + turn));
     for (int i = -steps; i <= steps; ++i) {
       const Eigen::Vector2d velocity = i * config.step * along;
-      const int covered = counter.covered(some, velocity.cast<float>());
+      const int covered = counter.covered(some, velocity.cast<float>(), fewest);
       if (covered >= fewest) continue;
       fewest = covered;
       best.velocity = velocity;

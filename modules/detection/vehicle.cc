@@ -11,23 +11,34 @@
 namespace saker::detection {
 namespace {
 
+constexpr int kIndexBits = 22, kSquareBits = 21;  // of a key; points of a window are fewer
+
+/// A square's column or row, from the middle of its range: a cluster is no wider.
+std::uint64_t square(double at, double edge) {
+  constexpr std::int64_t kMiddle = std::int64_t{1} << (kSquareBits - 1);
+  const auto index = static_cast<std::int64_t>(std::floor(at / edge)) + kMiddle;
+  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(index, 0, 2 * kMiddle - 1));
+}
+
 /// The first point of each small square: what lies dense counts once.
 Places thinned(const std::vector<BodyPoint>& points, const Eigen::Vector2d& velocity, double edge) {
   Places places;
-  std::vector<std::pair<std::int64_t, std::size_t>> keys;
+  std::vector<std::uint64_t> keys;  // column, row, index
   places.reserve(points.size());
+  keys.reserve(points.size());
   for (const BodyPoint& p : points) {
     const Eigen::Vector2d place =
         p.position.head<2>().cast<double>() - velocity * static_cast<double>(p.seconds);
-    keys.emplace_back((static_cast<std::int64_t>(std::floor(place.x() / edge)) << 32) +
-                          static_cast<std::int64_t>(std::floor(place.y() / edge)),
-                      places.size());
+    keys.push_back(((square(place.x(), edge) << kSquareBits | square(place.y(), edge))
+                    << kIndexBits) |
+                   places.size());
     places.push_back(place);
   }
   std::sort(keys.begin(), keys.end());
   Places thin;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (i == 0 || keys[i].first != keys[i - 1].first) thin.push_back(places[keys[i].second]);
+    const bool same = i > 0 && keys[i] >> kIndexBits == keys[i - 1] >> kIndexBits;
+    if (!same) thin.push_back(places[keys[i] & ((std::uint64_t{1} << kIndexBits) - 1)]);
   }
   return thin;
 }
