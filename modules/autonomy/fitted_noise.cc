@@ -59,8 +59,7 @@ void raise_ends(Eigen::MatrixXd& covariance, const Eigen::Vector2d& stated,
 /// well known as the fit says: the width grows away from the lidar.
 Eigen::Matrix4d hidden_side(const objects::Cuboid& cuboid, double width_sd,
                             const slam::MeasurementNoiseConfig& noise) {
-  const double beyond = std::pow(width_sd, 2) - std::pow(noise.fitted_width_sd_m, 2);
-  const double variance = std::clamp(beyond, 0.0, std::pow(noise.fitted_hidden_side_m, 2));
+  const double variance = width_sd > noise.fitted_width_sd_m ? width_sd * width_sd : 0;
   const Eigen::Vector3d eye = cuboid.pose.inverse() * Eigen::Vector3d::Zero();
   const Eigen::Vector4d grows(0, eye.y() < 0 ? 0.5 : -0.5, 0, 1);
   return variance * grows * grows.transpose();

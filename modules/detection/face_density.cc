@@ -8,7 +8,7 @@ namespace saker::detection {
 namespace {
 
 constexpr double kFarthest = 6.0;  // m, beyond the hits, of an end
-constexpr double kWidest = 1.5;    // m, beyond the hits, of a side
+constexpr double kWidest = 2.6;    // m, beyond the hits, of a side: one face of it was seen
 constexpr double kWithin = 0.4;    // m, inside of the middle strip
 
 double log_normal_cdf(double x) {

@@ -218,10 +218,9 @@ class Posterior {
  public:
   Posterior(const Turned& t, const VehicleView& view, double highest_m, const FaceConfig& config)
       : config_(config),
-        range_(nearest_range(
-            Eigen::Rotation2Dd(t.heading) *
-                Eigen::Vector2d(t.extent[0].centre(), t.extent[1].centre()),
-            view.sight)),
+        range_(nearest_range(Eigen::Rotation2Dd(t.heading) *
+                                 Eigen::Vector2d(t.extent[0].centre(), t.extent[1].centre()),
+                             view.sight)),
         size_{size_density(t, 0, view), size_density(t, 1, view)} {
     for (const VehicleKind& kind : vehicle_kinds()) {
       const Kind moments{size_[0].with(kind.plan[0]), size_[1].with(kind.plan[1])};
@@ -236,29 +235,46 @@ class Posterior {
 
   [[nodiscard]] double log_evidence() const { return log_evidence_; }
 
-  /// Along an axis, all kinds together.
-  [[nodiscard]] Extent extent(int axis) const {
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero(), weak_mean = mean;
-    Eigen::Matrix2d weak_second = Eigen::Matrix2d::Zero();
+  /// Probability that it is more than one vehicle.
+  [[nodiscard]] double several() const {
+    double sum = 0;
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (probability_[k] < kNever) continue;
-      const Normal prior = vehicle_kinds()[k].plan[axis];
-      const auto weak =
-          size_[axis].with({prior.mean, prior.sd * std::sqrt(config_.prior_windows)});
-      mean += probability_[k] * kinds_[k][axis].mean;
-      weak_mean += probability_[k] * weak.mean;
-      weak_second += probability_[k] * weak.second;
+      if (vehicle_kinds()[k].vehicles > 1) sum += probability_[k];
     }
-    Eigen::Matrix2d covariance = weak_second - weak_mean * weak_mean.transpose();
-    covariance += 1e-6 * Eigen::Matrix2d::Identity();
+    return sum;
+  }
+
+  /// Along an axis, all kinds of one vehicle together.
+  [[nodiscard]] Extent extent(int axis) const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      if (vehicle_kinds()[k].vehicles == 1) sum += probability_[k] * kinds_[k][axis].mean;
+    }
+    const Eigen::Vector2d mean = sum / std::max(1 - several(), kNever);
+    Eigen::Matrix2d covariance = about(mean, axis) + 1e-6 * Eigen::Matrix2d::Identity();
     covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);  // outward is down at the low face
     return {-mean[0], mean[1], of_centre_and_size(covariance)};
   }
 
-  static constexpr double kNever = 1e-9;  ///< a probability that changes nothing
+  static constexpr double kNever = 1e-9;        ///< a probability that changes nothing
+  static constexpr double kPriorWindows = 100;  ///< of a vehicle that is looked at for long
 
  private:
   using Kind = std::array<SizeDensity::Moments, 2>;
+
+  /// The second moment about a mean, with the prior of as many windows as say the same of it.
+  [[nodiscard]] Eigen::Matrix2d about(const Eigen::Vector2d& mean, int axis) const {
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      if (vehicle_kinds()[k].vehicles > 1 || probability_[k] < kNever) continue;
+      const Normal prior = vehicle_kinds()[k].plan[axis];
+      const auto weak = size_[axis].with({prior.mean, prior.sd * std::sqrt(kPriorWindows)});
+      const Eigen::Vector2d off = mean - weak.mean;
+      sum += probability_[k] *
+             (weak.second - weak.mean * weak.mean.transpose() + off * off.transpose());
+    }
+    return sum / std::max(1 - several(), kNever);
+  }
 
   [[nodiscard]] SizeDensity size_density(const Turned& t, int axis, const VehicleView& view) const {
     return {Face(t, axis, 0, view, config_).density(range_),
@@ -298,15 +314,22 @@ std::array<Extent, 2> with_doubt(const Posterior& best, const Posterior& other,
 
 }  // namespace
 
-Plan FaceFitter::fit(const VehicleView& view) const {
+Plan FaceFitter::outline(const VehicleView& view) const {
   const Heading heading = heading_of(view, config_);
-  const Turned along = turned(view.places, view, heading.mean, config_);
-  const Turned across = turned(view.places, view, heading.mean + M_PI / 2, config_);
+  const Turned hits = turned(view.places, view, heading.mean, config_);
+  const auto& [along, across] = hits.extent;
+  if (along.size() >= across.size()) return {heading.mean, heading.sd, {along, across}};
+  return {heading.mean + M_PI / 2, heading.sd, {across, {-along.high, -along.low}}};
+}
+
+Plan FaceFitter::fit(const VehicleView& view, const Plan& outline) const {
+  const Turned along = turned(view.places, view, outline.heading, config_);
+  const Turned across = turned(view.places, view, outline.heading - M_PI / 2, config_);
   const Posterior a(along, view, highest_m_, config_), b(across, view, highest_m_, config_);
   if (a.log_evidence() >= b.log_evidence()) {
-    return {along.heading, heading.sd, with_doubt(a, b, true), along.extent};
+    return {along.heading, outline.heading_sd, with_doubt(a, b, false), a.several() > 0.5};
   }
-  return {across.heading, heading.sd, with_doubt(b, a, false), across.extent};
+  return {across.heading, outline.heading_sd, with_doubt(b, a, true), b.several() > 0.5};
 }
 
 }  // namespace saker::detection

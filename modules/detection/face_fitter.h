@@ -30,8 +30,8 @@
 /// mirrors, anywhere. Both ψ and ψ + 90° are tried, the posterior's evidence decides.
 ///
 /// Each density is kept on a grid, blurred by what one vehicle's shape shares over all windows
-/// (shape_sd). Means use the sizes' prior as it is. Covariances use it as what one of
-/// `prior_windows` windows knows: all windows say the same of it.
+/// (shape_sd). Means use the sizes' prior; covariances are second moments about them with a
+/// hundredth of it: the windows of a vehicle all say the same prior.
 namespace saker::detection {
 
 struct FaceConfig {
@@ -59,7 +59,6 @@ struct FaceConfig {
   double shape_sd_m = 0.04;
   double side_m = 0.05;
   double top_sd_m = 0.06;
-  double prior_windows = 20;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -102,8 +101,6 @@ struct FaceConfig {
     v.field("side_m", side_m, {0.01, 1}, "m",
             "standard deviation of strips about their face, for the heading");
     v.field("top_sd_m", top_sd_m, {0.001, 1}, "m", "standard deviation of the top's height");
-    v.field("prior_windows", prior_windows, {1, 10000}, "",
-            "that say as much of the sizes' prior as one of them");
   }
 };
 
@@ -112,7 +109,8 @@ class FaceFitter final : public VehicleFitter {
  public:
   /// \param highest_m  above the ground, above which points are not kept
   FaceFitter(const FaceConfig& config, double highest_m) : config_(config), highest_m_(highest_m) {}
-  [[nodiscard]] Plan fit(const VehicleView& view) const override;
+  [[nodiscard]] Plan outline(const VehicleView& view) const override;
+  [[nodiscard]] Plan fit(const VehicleView& view, const Plan& outline) const override;
 
  private:
   FaceConfig config_;

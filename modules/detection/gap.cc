@@ -6,13 +6,8 @@
 namespace saker::detection {
 namespace {
 
-struct Rectangle {
-  double heading;
-  const std::array<Extent, 2>& axis;
-};
-
 /// Lower than its windows.
-objects::Cuboid inner_part(const Rectangle& r, const GapConfig& gap) {
+objects::Cuboid inner_part(const Plan& r, const GapConfig& gap) {
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(gap.inset_m);
   return upright(r.heading,
                  {Eigen::Vector2d(r.axis[0].low, r.axis[1].low) + margin,
@@ -21,7 +16,7 @@ objects::Cuboid inner_part(const Rectangle& r, const GapConfig& gap) {
 }
 
 /// What beams through windows end in: seats, doors.
-objects::Cuboid body(const Rectangle& r, const GapConfig& gap) {
+objects::Cuboid body(const Plan& r, const GapConfig& gap) {
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(gap.side_inset_m);
   constexpr double kTop = 4;  // m
   return upright(r.heading,
@@ -31,7 +26,7 @@ objects::Cuboid body(const Rectangle& r, const GapConfig& gap) {
 }
 
 /// Upright along the low or the high side, between distances inward from it and along its middle.
-objects::Cuboid along_side(const Rectangle& r, int side, const Eigen::Vector2d& inward,
+objects::Cuboid along_side(const Plan& r, int side, const Eigen::Vector2d& inward,
                            const Eigen::Vector2d& along, const GapConfig& gap) {
   const double middle = r.axis[0].centre();
   const Eigen::Vector2d across =
@@ -43,7 +38,7 @@ objects::Cuboid along_side(const Rectangle& r, int side, const Eigen::Vector2d& 
 }
 
 /// Whether somewhere in its middle nothing was met on a side, but beams went on behind it.
-bool open(const Rectangle& r, int side, const Sight& sight, const GapConfig& gap) {
+bool open(const Plan& r, int side, const Sight& sight, const GapConfig& gap) {
   const Eigen::Vector2d face(-gap.side_inset_m, gap.side_inset_m);
   const Eigen::Vector2d behind(gap.side_inset_m, gap.side_inset_m + gap.side_depth_m);
   const objects::Cuboid whole = body(r, gap);
@@ -61,7 +56,7 @@ bool open(const Rectangle& r, int side, const Sight& sight, const GapConfig& gap
   return false;
 }
 
-bool looked_at(const Rectangle& r, int side, const Sight& sight, const GapConfig& gap) {
+bool looked_at(const Plan& r, int side, const Sight& sight, const GapConfig& gap) {
   const Eigen::Vector2d left(-std::sin(r.heading), std::cos(r.heading));
   return std::ranges::any_of(sight.sensors, [&](const Eigen::Vector3d& sensor) {
     const double at = left.dot(sensor.head<2>());
@@ -71,13 +66,12 @@ bool looked_at(const Rectangle& r, int side, const Sight& sight, const GapConfig
 
 }  // namespace
 
-bool parted(double heading, const std::array<Extent, 2>& axis, const Sight& sight,
-            const GapConfig& config) {
-  const Rectangle r{heading, axis};
-  if (sight.through(inner_part(r, config), body(r, config)) >= config.beams) return true;
-  if (axis[0].size() < config.least_length_m) return false;
+bool parted(const Plan& outline, const Sight& sight, const GapConfig& config) {
+  if (sight.through(inner_part(outline, config), body(outline, config)) >= config.beams)
+    return true;
+  if (outline.axis[0].size() < config.least_length_m) return false;
   for (int side = 0; side < 2; ++side) {
-    if (looked_at(r, side, sight, config) && open(r, side, sight, config)) return true;
+    if (looked_at(outline, side, sight, config) && open(outline, side, sight, config)) return true;
   }
   return false;
 }

@@ -44,8 +44,7 @@ struct GapConfig {
 /// Whether beams went through what a vehicle fills: its inner part, or what lies just behind the
 /// middle of a side that was looked at, where two that stand beside each other show their ends and
 /// nothing of their depth.
-/// \param axis  along the heading, which is the length's, and across
-[[nodiscard]] bool parted(double heading, const std::array<Extent, 2>& axis, const Sight& sight,
-                          const GapConfig& config);
+/// \param outline  of its points, the length first
+[[nodiscard]] bool parted(const Plan& outline, const Sight& sight, const GapConfig& config);
 
 }  // namespace saker::detection

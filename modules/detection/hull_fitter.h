@@ -27,7 +27,8 @@ struct HullConfig {
 class HullFitter final : public VehicleFitter {
  public:
   explicit HullFitter(const HullConfig& config) : config_(config) {}
-  [[nodiscard]] Plan fit(const VehicleView& view) const override;
+  [[nodiscard]] Plan outline(const VehicleView& view) const override;
+  [[nodiscard]] Plan fit(const VehicleView& view, const Plan& outline) const override;
 
  private:
   HullConfig config_;

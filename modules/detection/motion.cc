@@ -56,7 +56,8 @@ Motion estimate_motion(std::span<const TimedPoint> points, double direction,
   if (points.empty() || last->seconds - first->seconds < config.least_seconds) return {};
   const std::vector<TimedPoint> some = evenly(points, config.most_points);
   SquareCounter counter(config.square_m);
-  const int at_rest = counter.covered(some, Eigen::Vector2f::Zero(), std::numeric_limits<int>::max());
+  const int at_rest =
+      counter.covered(some, Eigen::Vector2f::Zero(), std::numeric_limits<int>::max());
   int fewest = at_rest;
   Motion best;
   const int steps = static_cast<int>(config.fastest / config.step);

@@ -9,7 +9,8 @@
 /// Small, medium and large cars are segments B, C and D to E of the European Commission's market
 /// definition; the others are sport utility vehicles, vans and pickups, rigid trucks, buses. Means
 /// and standard deviations are those of makers' published dimensions without mirrors; weights are
-/// rough shares of parked vehicles.
+/// rough shares of parked vehicles. The last two are no vehicle but what is as long or as wide as a
+/// truck and no higher than a car: two cars behind each other, or a car and a bush beside it.
 namespace saker::detection {
 
 struct Normal {
@@ -22,6 +23,7 @@ struct VehicleKind {
   double weight;               ///< of all vehicles
   std::array<Normal, 2> plan;  ///< length, width
   Normal height;
+  int vehicles = 1;
 };
 
 [[nodiscard]] std::span<const VehicleKind> vehicle_kinds();
@@ -30,8 +32,9 @@ struct VehicleKind {
 /// deviations of the kind and of the measurement together.
 [[nodiscard]] bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd);
 
-/// Log-likelihood of the highest points of a vehicle of that kind. They lie at its top, or, rarely,
-/// anywhere below it: something hides it.
+/// Log-likelihood of the highest points of a vehicle of that kind. They lie at its top or, of a
+/// higher one, where points end (censored: Tobin, Econometrica 1958), or, rarely, anywhere below:
+/// something hides it.
 /// \param top      m above the ground
 /// \param highest  m, above which points are not kept
 /// \param noise    m, standard deviation of `top`

@@ -29,9 +29,9 @@ Places thinned(const std::vector<BodyPoint>& points, const Eigen::Vector2d& velo
   for (const BodyPoint& p : points) {
     const Eigen::Vector2d place =
         p.position.head<2>().cast<double>() - velocity * static_cast<double>(p.seconds);
-    keys.push_back(((square(place.x(), edge) << kSquareBits | square(place.y(), edge))
-                    << kIndexBits) |
-                   places.size());
+    keys.push_back(
+        ((square(place.x(), edge) << kSquareBits | square(place.y(), edge)) << kIndexBits) |
+        places.size());
     places.push_back(place);
   }
   std::sort(keys.begin(), keys.end());
@@ -109,19 +109,23 @@ Matrix9d covariance_of(const Plan& plan, const VehicleNoiseConfig& noise) {
   return P;
 }
 
-VehicleStatus judge(const Plan& plan, double top, const VehicleConfig& config) {
-  const double longer = std::max(plan.of_hits[0].size(), plan.of_hits[1].size());
-  const double shorter = std::min(plan.of_hits[0].size(), plan.of_hits[1].size());
-  if (longer > config.most_length_m || shorter > config.most_width_m) {
-    return VehicleStatus::too_large;
-  }
+/// \param outline of its points
+VehicleStatus judge(const Plan& outline, double top, const Sight& sight,
+                    const VehicleConfig& config) {
+  const auto& [along, across] = outline.axis;
+  const bool large = along.size() > config.most_length_m || across.size() > config.most_width_m;
+  if (large) return VehicleStatus::too_large;
+  const bool small = along.size() < config.least_length_m || top < config.least_height_m;
+  if (small) return VehicleStatus::too_small;
+  return parted(outline, sight, config.gap) ? VehicleStatus::parted : VehicleStatus::fitted;
+}
+
+bool of_some_kind(const Plan& plan) {
   constexpr double kMostSd = 4;  // beyond, it is two beside each other: to be split
   const auto measured = [&](int k) {
     return Normal{plan.axis[k].size(), std::sqrt(plan.axis[k].covariance(1, 1))};
   };
-  if (!is_of_some_kind({measured(0), measured(1)}, kMostSd)) return VehicleStatus::too_large;
-  const bool small = longer < config.least_length_m || top < config.least_height_m;
-  return small ? VehicleStatus::too_small : VehicleStatus::fitted;
+  return is_of_some_kind({measured(0), measured(1)}, kMostSd);
 }
 
 }  // namespace
@@ -140,13 +144,13 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
                          static_cast<int>(points.size()), top_of(points, config.top_percentile),
                          sight};
   if (view.places.size() < 3) return fit;
-  const Plan plan = fitter.fit(view);
-  fit.status = judge(plan, view.top, config);
+  const Plan outline = fitter.outline(view);
+  fit.status = judge(outline, view.top, sight, config);
   if (fit.status != VehicleStatus::fitted) return fit;
-  if (parted(plan.heading, plan.of_hits, sight, config.gap)) {
-    fit.status = VehicleStatus::parted;
-    return fit;
-  }
+  const Plan plan = fitter.fit(view, outline);
+  if (plan.several) fit.status = VehicleStatus::parted;
+  if (!of_some_kind(plan)) fit.status = VehicleStatus::too_large;
+  if (fit.status != VehicleStatus::fitted) return fit;
   fit.cuboid = cuboid_of(plan, view.top);
   fit.covariance = covariance_of(plan, config.noise);
   fit.front_log_odds = front_log_odds(points, fit.motion, plan, config);

@@ -67,19 +67,25 @@ struct Extent {
   return to_centre_size * of_edges * to_centre_size.transpose();
 }
 
+/// A rectangle.
 struct Plan {
-  double heading = 0;             ///< of the length, radians
-  double heading_sd = 0;          ///< radians
-  std::array<Extent, 2> axis;     ///< along the length, across it (to the left)
-  std::array<Extent, 2> of_hits;  ///< of the points alone, without covariance
+  double heading = 0;          ///< of the first axis, radians
+  double heading_sd = 0;       ///< radians
+  std::array<Extent, 2> axis;  ///< along the heading, across it (to the left)
+  bool several = false;        ///< likelier more than one vehicle
 };
 
 class VehicleFitter {
  public:
   virtual ~VehicleFitter() = default;
 
+  /// What the points alone show, the longer axis first; without covariances.
   /// \param view with three places and more
-  [[nodiscard]] virtual Plan fit(const VehicleView& view) const = 0;
+  [[nodiscard]] virtual Plan outline(const VehicleView& view) const = 0;
+
+  /// The vehicle's rectangle, its length first.
+  /// \param outline of that view
+  [[nodiscard]] virtual Plan fit(const VehicleView& view, const Plan& outline) const = 0;
 };
 
 /// A box on the ground with its first two axes along a plan's.

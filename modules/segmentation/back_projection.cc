@@ -1,6 +1,7 @@
 #include "segmentation/back_projection.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace saker::segmentation {
 namespace {
@@ -15,11 +16,21 @@ int wrapped(int column, int columns) {
 
 }  // namespace
 
-void BackProjection::vote(const Eigen::Vector3f& point, std::size_t pixel, const RangeImage& image,
-                          const PixelProbabilities& pixels) {
+void BackProjection::fill_blocks(const PixelProbabilities& pixels) {
+  const auto classes = static_cast<std::size_t>(pixels.classes);
+  blocks_ = (classes + Block::SizeAtCompileTime - 1) / Block::SizeAtCompileTime;
+  votes_.resize(blocks_);
+  of_pixels_.assign(pixels.values.size() / classes * blocks_, Block::Zero());
+  for (std::size_t i = 0; i * blocks_ < of_pixels_.size(); ++i) {
+    std::copy_n(pixels.at(i), classes, of_pixels_[i * blocks_].data());
+  }
+}
+
+void BackProjection::vote(const Eigen::Vector3f& point, std::size_t pixel,
+                          const RangeImage& image) {
   const int row = static_cast<int>(pixel) / image.columns;
   const int column = static_cast<int>(pixel) % image.columns;
-  votes_.assign(static_cast<std::size_t>(pixels.classes), 0.0F);
+  std::ranges::fill(votes_, Block::Zero());
   for (int r = std::max(row - kRowsAround, 0); r <= std::min(row + kRowsAround, image.rows - 1);
        ++r) {
     for (int d = -kColumnsAround; d <= kColumnsAround; ++d) {
@@ -27,8 +38,7 @@ void BackProjection::vote(const Eigen::Vector3f& point, std::size_t pixel, const
           static_cast<std::size_t>(r) * image.columns + wrapped(column + d, image.columns);
       if (!image.valid(i)) continue;
       const float weight = 1 / (1 + (image.points[i] - point).squaredNorm() / (kNear * kNear));
-      const float* probability = pixels.at(i);
-      for (int k = 0; k < pixels.classes; ++k) votes_[k] += weight * probability[k];
+      for (std::size_t b = 0; b < blocks_; ++b) votes_[b] += weight * of_pixels_[i * blocks_ + b];
     }
   }
 }
@@ -37,15 +47,14 @@ lidar::Labels BackProjection::label(const lidar::Scan& scan, const RangeImage& i
                                     const PixelProbabilities& pixels) {
   lidar::Labels labels{std::vector<std::uint8_t>(scan.size(), 0),
                        std::vector<float>(scan.size(), 0.0F)};
-  votes_.resize(static_cast<std::size_t>(pixels.classes));
+  fill_blocks(pixels);
+  const float* votes = votes_.front().data();
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (image.pixel[i] < 0) continue;
-    const std::size_t pixel = image.pixel[i];
-    vote(scan.points[i], pixel, image, pixels);
-    float sum = 0;
-    for (const float v : votes_) sum += v;
-    const auto best = std::max_element(votes_.begin(), votes_.end());
-    labels.classes[i] = static_cast<std::uint8_t>(best - votes_.begin());
+    vote(scan.points[i], static_cast<std::size_t>(image.pixel[i]), image);
+    const float sum = std::accumulate(votes, votes + pixels.classes, 0.0F);
+    const float* best = std::max_element(votes, votes + pixels.classes);
+    labels.classes[i] = static_cast<std::uint8_t>(best - votes);
     labels.probability[i] = sum > 0 ? *best / sum : 0.0F;
   }
   return labels;

@@ -21,10 +21,14 @@ class BackProjection {
                                     const PixelProbabilities& pixels);
 
  private:
-  void vote(const Eigen::Vector3f& point, std::size_t pixel, const RangeImage& image,
-            const PixelProbabilities& pixels);
+  using Block = Eigen::Array<float, 8, 1>;  ///< of classes: what one instruction adds
 
-  std::vector<float> votes_;
+  void fill_blocks(const PixelProbabilities& pixels);
+  void vote(const Eigen::Vector3f& point, std::size_t pixel, const RangeImage& image);
+
+  std::size_t blocks_ = 1;        ///< a pixel
+  std::vector<Block> of_pixels_;  ///< the probabilities, filled up with zeros
+  std::vector<Block> votes_;
 };
 
 }  // namespace saker::segmentation

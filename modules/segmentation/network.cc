@@ -71,8 +71,10 @@ void Network::pad(const std::vector<float>& features, int rows, int columns) {
       const float* from = &features[(static_cast<std::size_t>(channel) * rows + row) * columns];
       float* to =
           memory_->input.ptr<float>(0, channel) + static_cast<std::size_t>(row) * padded_columns;
-      for (int c = 0; c < columns + 2 * kWrap; ++c) {
+      std::copy_n(from, columns, to + kWrap);
+      for (int c = 0; c < kWrap; ++c) {
         to[c] = from[(c - kWrap % columns + columns) % columns];
+        to[kWrap + columns + c] = from[c % columns];
       }
     }
   }

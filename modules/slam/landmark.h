@@ -14,7 +14,7 @@
 namespace saker::slam {
 
 struct LandmarkConfig {
-  int confirm_observations = 5;
+  int confirm_observations = 3;
   double confirm_span_s = 0.9;
   double surely_seen_m = 8;
   double track_s = 3;

@@ -20,8 +20,7 @@ struct MeasurementNoiseConfig {
   double shared_width = 1;
   double shared_end_per_m = 5;
   double fitted_end_sd_m = 0.28;
-  double fitted_width_sd_m = 0.1;
-  double fitted_hidden_side_m = 0.1;
+  double fitted_width_sd_m = 0.2;
   double fitted_class_width_m = 0.12;
   double shared_root = 4;
   double shared_radius = 80;
@@ -70,15 +69,11 @@ struct MeasurementNoiseConfig {
             "known than the fitted covariance has it");
     v.field("fitted_width_sd_m", fitted_width_sd_m, {0.01, 10}, "m",
             "standard deviation that windows state of a vehicle's width where they show both of "
-            "its sides: what they state beyond that is where the hidden side is; at most "
+            "its sides; of others the hidden side lies anywhere within what they state; equal to "
             "fit.whole_width_sd_m, from which on the fit takes the width for not measured");
-    v.field("fitted_hidden_side_m", fitted_hidden_side_m, {0, 10}, "m",
-            "but no more than this: vehicles of one height differ by 0.1 m at most, and a few view "
-            "cells from one side say the same of it");
     v.field("fitted_class_width_m", fitted_class_width_m, {0.01, 10}, "m",
-            "by which a width is known that no view measured: windows state a part of it "
-            "(detection.vehicle.faces.prior_windows), those of a cell count once. Only narrows "
-            "what maps, those that are planned with, too, say of widths");
+            "by which a width is known that no view measured: its kind's. Only narrows what maps, "
+            "those that are planned with, too, say of widths");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

@@ -24,7 +24,7 @@ struct FitConfig {
   std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
   double whole_length_sd_m = 0.25;
-  double whole_width_sd_m = 0.3;
+  double whole_width_sd_m = 0.2;
   int least_objects = 10;
   int least_draws = 5;
   int folds = 5;
@@ -42,7 +42,7 @@ struct FitConfig {
             "detection gives up to 0.25 m, or 0.35 m and more");
     v.field("whole_width_sd_m", whole_width_sd_m, {0, 100}, "m",
             "and one that states a worse width one side alone: where the other is, it does not "
-            "tell; detection gives 0.15 to 0.3 m where it was seen over the roof, or 0.5 m");
+            "tell; detection gives 0.1 to 0.2 m where both were seen, else 0.25 m and more");
     v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
     v.field("least_draws", least_draws, {1, 100000}, "",
             "of objects in an interval, below it counts as not flown");

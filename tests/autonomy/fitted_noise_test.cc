@@ -139,17 +139,17 @@ TEST(FittedNoise, AnEndThatIsStatedBadlyIsNoBetterKnownThanThatByItsSquareTheOth
   EXPECT_NEAR(after.length_sd, std::hypot(0.02, 0.24), 1e-12);
 }
 
-TEST(FittedNoise, AHiddenSideIsKnownAsBadlyAsWidthsDifferTheNearOneAsTheFitSays) {
+TEST(FittedNoise, AHiddenSideIsKnownAsBadlyAsTheWindowStatesTheNearOneAsTheFitSays) {
+  const double hidden = 0.4;              // more than the limit
   for (const double yaw : {1.2, -1.2}) {  // the lidar is to the right, then to the left
     Measurement m = car(8, yaw);
-    m.covariance(7, 7) = 0.4 * 0.4;  // more than the limit
+    m.covariance(7, 7) = hidden * hidden;
     const Eigen::MatrixXd P = applied(m).covariance;
     const std::vector<int> plan = objects::planar_rows(m.model);
     const Eigen::Matrix4d known = expected(kVehicle, 8, std::numbers::pi - 1.2).covariance;
     const double near = yaw > 0 ? 1 : -1;
     const Eigen::Vector4d near_side(0, near, 0, 0.5), far_side(0, -near, 0, 0.5);
     const Eigen::Matrix4d after = P(plan, plan);
-    const double hidden = slam::MeasurementNoiseConfig().fitted_hidden_side_m;
     EXPECT_NEAR(near_side.dot(after * near_side), near_side.dot(known * near_side), 1e-9);
     EXPECT_NEAR(far_side.dot(after * far_side) - far_side.dot(known * far_side), hidden * hidden,
                 1e-9);
@@ -283,13 +283,6 @@ TEST(UncertaintyFor, ThePapersEstimatorSeesLengthsBestFromObliquelyInFrontWorstF
 TEST(FittedNoise, AWidthThatTheFitTakesForNotMeasuredHasAHiddenSide) {
   EXPECT_GE(uncertainty::FitConfig().whole_width_sd_m,
             slam::MeasurementNoiseConfig().fitted_width_sd_m);
-}
-
-/// Active mapping's is what all views from one side share, the graph's what each of its cells errs
-/// by: it averages those.
-TEST(FittedNoise, AHiddenSideIsPredictedNoWorseThanOneCellTellsOfIt) {
-  EXPECT_LE(active::PamsConfig::saker().faces.hidden_side_m,
-            slam::MeasurementNoiseConfig().fitted_hidden_side_m);
 }
 
 TEST(FittedNoise, NeedsAModel) {

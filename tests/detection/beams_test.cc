@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/rng.h"
+
 namespace saker::detection {
 namespace {
 
@@ -102,6 +104,44 @@ TEST(Beams, ThatEndInTheBodyGoThroughNoneOfItsParts) {
 TEST(Beams, ThatEndInABoxAreCounted) {
   const Beams beams = two_beams({5, 0, 0}, {10, 0, 0});
   EXPECT_EQ(beams.ended(box_at({5, 0, 0})), 1);
+}
+
+/// Slab by slab, in the box's frame.
+bool goes_through(const objects::Cuboid& box, const Eigen::Vector3d& from,
+                  const Eigen::Vector3d& to) {
+  const Eigen::Vector3d a = box.pose.inverse() * from, b = box.pose.inverse() * to;
+  double enter = 0, leave = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double half = 0.5 * box.size[k], along = b[k] - a[k];
+    enter = std::max(enter, std::min((-half - a[k]) / along, (half - a[k]) / along));
+    leave = std::min(leave, std::max((-half - a[k]) / along, (half - a[k]) / along));
+  }
+  return enter < leave && leave < 1;
+}
+
+TEST(Beams, OfAnyDirectionAreFoundWhereverTheBoxIs) {
+  core::Rng rng(3);
+  Window window;
+  window.sensors = {{0, 0, 1.5}, {1, 0, 12}, {-3, 2, 0.2}};
+  for (int i = 0; i < 6000; ++i) {
+    const Eigen::Vector3d end(rng.uniform(-30, 30), rng.uniform(-30, 30), rng.uniform(-2, 15));
+    window.beams.push_back({end.cast<float>(), static_cast<std::uint16_t>(rng.index(3))});
+  }
+  Beams beams;
+  beams.fill(window);
+  int all = 0;
+  for (int i = 0; i < 60; ++i) {
+    objects::Cuboid box = box_at({rng.uniform(-15, 15), rng.uniform(-15, 15), rng.uniform(-1, 8)},
+                                 rng.uniform(-3, 3));
+    box.pose.rotate(Eigen::AngleAxisd(rng.uniform(-0.3, 0.3), Eigen::Vector3d::UnitX()));
+    box.size = {rng.uniform(0.3, 6), rng.uniform(0.3, 3), rng.uniform(0.2, 3)};
+    int expected = 0;
+    for (const Beam& beam : window.beams)
+      expected += goes_through(box, window.sensors[beam.scan], beam.end.cast<double>());
+    EXPECT_NEAR(beams.through(box), expected, 1) << i;  // floats at the rim
+    all += expected;
+  }
+  EXPECT_GT(all, 500);
 }
 
 }  // namespace

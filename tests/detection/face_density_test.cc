@@ -145,5 +145,12 @@ TEST(StripsAlong, AreTheOutermostLayersOfBothFaces) {
   for (const Strip& strip : strips.low) EXPECT_NEAR(strip.outward, 0.985, 1e-9);
 }
 
+TEST(FaceDensity, OfAHiddenSideReachesAWidthBeyondHitsOnTheOther) {
+  FaceView view{{}, 0.1, 0, 2.2, false, 0, 0, 1, 10};
+  for (double x = -2; x <= 2; x += 0.2) view.strips.push_back({x, 0.1});
+  const FaceDensity density = face_density(view, INFINITY, {});
+  EXPECT_GT(share_at(density, 1.8), 0.1);
+}
+
 }  // namespace
 }  // namespace saker::detection

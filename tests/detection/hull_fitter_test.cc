@@ -26,7 +26,9 @@ Plan fit(const Places& places) {
   const Beams beams;
   const Surroundings surroundings({});
   const Sight sight{{Eigen::Vector3d(0, -8, 2)}, beams, surroundings, SE3::Identity()};
-  return HullFitter({}).fit({places, static_cast<int>(places.size()), 1.5, sight});
+  const VehicleView view{places, static_cast<int>(places.size()), 1.5, sight};
+  const HullFitter fitter({});
+  return fitter.fit(view, fitter.outline(view));
 }
 
 TEST(HullFitter, LongerSideIsTheLength) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace saker::detection {
@@ -29,6 +30,28 @@ TEST(SizePrior, TopTellsTheKind) {
   EXPECT_EQ(likeliest(1.7), "suv");
   EXPECT_EQ(likeliest(2.1), "van");
   EXPECT_NE(likeliest(2.6), "van");
+}
+
+TEST(SizePrior, AHigherVehicleReachesToWherePointsEnd) {
+  EXPECT_TRUE(likeliest(kHighest) == "truck" || likeliest(kHighest) == "bus");
+}
+
+TEST(SizePrior, WhatIsAsLongAsATruckAndNoHigherThanACarIsTwoCars) {
+  const auto odds = [](double length, double top) {
+    double two = 0, one = 0;
+    for (const VehicleKind& kind : vehicle_kinds()) {
+      const double z = (length - kind.plan[0].mean) / kind.plan[0].sd;
+      const double likelihood =
+          kind.weight * std::exp(log_likelihood_of_top(top, kind, kHighest, 0.06) - 0.5 * z * z) /
+          kind.plan[0].sd;
+      (kind.vehicles > 1 ? two : one) += likelihood;
+    }
+    return two / one;
+  };
+  EXPECT_GT(odds(7.5, 1.6), 5);
+  EXPECT_LT(odds(7.5, 2.6), 0.01);
+  EXPECT_LT(odds(5.5, 2.0), 0.05);
+  EXPECT_LT(odds(4.8, 1.5), 0.05);
 }
 
 TEST(SizePrior, NoKindIsAsWideAsTwoVehiclesUnlessThatIsDoubtful) {

@@ -110,8 +110,17 @@ TEST(Vehicle, SeenFromBehindOnlyDoesNotClaimToKnowItsLength) {
   EXPECT_NEAR(fit.cuboid.size.y(), 1.8, 0.15);
   EXPECT_GT(length_sd(fit), 0.3);
   EXPECT_LT(std::abs(fit.cuboid.size.x() - 4.5), 2 * length_sd(fit));
-  EXPECT_LT(std::sqrt(fit.covariance(7, 7)), 0.2);
+  EXPECT_LT(std::sqrt(fit.covariance(7, 7)), 0.45);  // either side may reach on, hidden
   EXPECT_LT(std::abs(fit.cuboid.pose.translation().x() - 12), 2 * std::sqrt(fit.covariance(3, 3)));
+}
+
+TEST(Vehicle, AsLongAsATruckAndNoHigherThanACarIsMoreThanOne) {
+  const auto status = [](double height, double width) {
+    return Scene{{0, -8, 1.2}, {.length = 7.3, .width = width, .height = height}}.fit().status;
+  };
+  EXPECT_EQ(status(1.5, 1.8), VehicleStatus::parted);
+  EXPECT_EQ(status(1.5, 2.7), VehicleStatus::parted);
+  EXPECT_EQ(status(2.6, 2.4), VehicleStatus::fitted);
 }
 
 TEST(Vehicle, HiddenEndOfAVanLiesFartherOutThanACars) {
@@ -214,7 +223,7 @@ TEST(Vehicle, WhoseHeadingIsAGuessStatesNoFaceBetterThanEitherHeadingTells) {
 }
 
 TEST(Vehicle, WhoseHeadingIsPlainStatesItsFacesAsItSeesThem) {
-  EXPECT_LT(right_face(half_hidden(0, -1.2).fit()).sd, 0.12);
+  EXPECT_LT(right_face(half_hidden(0, -1.2).fit()).sd, 0.3);
 }
 
 TEST(Vehicle, ClassWidthOfAHiddenSideIsStatedAsWhatOneOfManyWindowsKnows) {

@@ -12,10 +12,12 @@
 #include "lidar/recording.h"
 #include "objects/map_io.h"
 #include "saker/configuration.h"
+#include "saker/detections_file.h"
 #include "saker/evaluation.h"
 #include "saker/labelled_folder.h"
 #include "saker/output.h"
 #include "saker/vehicle_figures.h"
+#include "saker/window_figures.h"
 #include "segmentation/segmentation.h"
 
 namespace saker::tools {
@@ -91,9 +93,32 @@ Json vehicle_json(const VehicleResult& v) {
   return row;
 }
 
-/// The map of a run over the folder's scans, against the folder's vehicles.json.
+/// A number or nothing.
+std::string cell(const Json& value) {
+  return value.is_null() ? "-" : fmt::format("{:.3f}", value.get<double>());
+}
+
+std::string window_text(const Json& windows) {
+  std::string text = fmt::format(
+      "\nsingle windows: {} of {} measured, MAE of length {} m, width {} m; one box {} m\n"
+      "range m   angle deg  measured  length   width  one box\n",
+      windows["measured"].get<int>(), windows["labelled"].get<int>(), cell(windows["length_mae_m"]),
+      cell(windows["width_mae_m"]), cell(windows["box_size_mae_m"]));
+  for (const Json& row : windows["cells"]) {
+    text += fmt::format("{:2} … {:2}   {:2} … {:2}   {:4} of {:<4} {:>5}   {:>5}   {:>5}\n",
+                        row["range_m"][0].get<double>(), row["range_m"][1].get<double>(),
+                        row["angle_deg"][0].get<double>(), row["angle_deg"][1].get<double>(),
+                        row["measured"].get<int>(), row["labelled"].get<int>(),
+                        cell(row["length_mae_m"]), cell(row["width_mae_m"]),
+                        cell(row["box_size_mae_m"]));
+  }
+  return text;
+}
+
+/// The map and the windows of a run over the folder's scans, against the folder's vehicles.json.
 Json map_figures(const EvaluateOptions& options, const CommonOptions& common) {
-  const objects::ClassTable table = read_configuration(common).autonomy.objects;
+  const autonomy::Config config = read_configuration(common).autonomy;
+  const objects::ClassTable& table = config.objects;
   const LabelledVehicles labelled =
       read_labelled_vehicles(fs::path(options.folder) / "vehicles.json");
   const fs::path run = options.run;
@@ -107,6 +132,11 @@ Json map_figures(const EvaluateOptions& options, const CommonOptions& common) {
   figures["label_sd_m"] = options.label_sd_m;
   figures["vehicles"] = Json::array();
   for (const VehicleResult& v : vehicles.vehicles) figures["vehicles"].push_back(vehicle_json(v));
+  const std::vector<WindowResult> windows =
+      window_results(read_detections(run / "detections.jsonl", table), table, poses, labelled);
+  const Eigen::Vector2d box(config.active.targets.default_size_m.data());
+  figures["windows"] = window_json(windows, box);
+  std::cout << window_text(figures["windows"]);
   return figures;
 }
 
@@ -139,7 +169,8 @@ void add_evaluate(Commands& commands) {
   app.add_option("--meta", options->metadata, "metadata (JSON) of a capture; else beside it")
       ->type_name("FILE");
   app.add_option("--map", options->run,
-                 "judge the map that saker replay left in this folder by FOLDER/vehicles.json")
+                 "judge the map and the single windows that saker replay left in this folder by "
+                 "FOLDER/vehicles.json")
       ->type_name("RUN");
   app.add_option("--label-sd", options->label_sd_m,
                  "of a labelled length, width and place, m: part of the NEES")
