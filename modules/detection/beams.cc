@@ -102,11 +102,12 @@ void Beams::for_each_towards(const objects::Cuboid& box, const Take& take) const
     const Eigen::Vector3f from = T_box_level * sensors_[scan];
     const Eigen::Vector3f towards = centre - sensors_[scan];
     const Slopes slopes = slopes_towards(towards, half.norm(), up);
-    const float sine = std::min(half.norm() / std::max(towards.head<2>().norm(), 1e-3f), 1.0f);
-    const float reach = std::asin(sine) * static_cast<float>(kBins / (2 * M_PI)) + 1;
+    const float sine = half.norm() / std::max(towards.head<2>().norm(), 1e-3f);
+    const bool about = sine >= 1;  // the sensor: beams enter it from all sides
     const int middle = static_cast<int>(azimuth_bins(towards));
-    const int bins = std::min(static_cast<int>(reach), kBins / 2 - 1);
-    for (int b = middle - bins; b <= middle + bins; ++b) {
+    const int bins = about ? 0 : static_cast<int>(std::asin(sine) * (kBins / (2 * M_PI))) + 2;
+    const int first = about ? 0 : middle - bins, last_bin = about ? kBins - 1 : middle + bins;
+    for (int b = first; b <= last_bin; ++b) {
       const std::size_t at = (scan * kBins + (b + kBins) % kBins) * kSlopes;
       const std::uint32_t last = first_[at + slopes.highest + 1];
       for (std::uint32_t i = first_[at + slopes.lowest]; i < last; ++i) {
