@@ -11,7 +11,7 @@
 namespace saker::detection {
 namespace {
 
-constexpr int kIndexBits = 22, kSquareBits = 21;  // of a key; points of a window are fewer
+constexpr int kIndexBits = 24, kSquareBits = 20;  // of a key: more than window.most_points may be
 
 /// A square's column or row, from the middle of its range: a cluster is no wider.
 std::uint64_t square(double at, double edge) {

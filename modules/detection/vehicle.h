@@ -93,7 +93,7 @@ struct BodyPoint {
   float seconds = 0;
 };
 
-/// `parted`: beams went through the middle of it, it is more than one thing.
+/// `parted`: it is more than one thing, by its size or the beams that went through it.
 enum class VehicleStatus { fitted, too_few, too_small, too_large, parted };
 
 struct VehicleFit {
