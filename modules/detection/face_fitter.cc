@@ -239,7 +239,7 @@ class Posterior {
   [[nodiscard]] double several() const {
     double sum = 0;
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (vehicle_kinds()[k].vehicles > 1) sum += probability_[k];
+      if (!vehicle_kinds()[k].one_vehicle) sum += probability_[k];
     }
     return sum;
   }
@@ -248,7 +248,7 @@ class Posterior {
   [[nodiscard]] Extent extent(int axis) const {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (vehicle_kinds()[k].vehicles == 1) sum += probability_[k] * kinds_[k][axis].mean;
+      if (vehicle_kinds()[k].one_vehicle) sum += probability_[k] * kinds_[k][axis].mean;
     }
     const Eigen::Vector2d mean = sum / std::max(1 - several(), kNever);
     Eigen::Matrix2d covariance = about(mean, axis) + 1e-6 * Eigen::Matrix2d::Identity();
@@ -266,7 +266,7 @@ class Posterior {
   [[nodiscard]] Eigen::Matrix2d about(const Eigen::Vector2d& mean, int axis) const {
     Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (vehicle_kinds()[k].vehicles > 1 || probability_[k] < kNever) continue;
+      if (!vehicle_kinds()[k].one_vehicle || probability_[k] < kNever) continue;
       const Normal prior = vehicle_kinds()[k].plan[axis];
       const auto weak = size_[axis].with({prior.mean, prior.sd * std::sqrt(kPriorWindows)});
       const Eigen::Vector2d off = mean - weak.mean;

@@ -14,8 +14,8 @@ constexpr std::array<VehicleKind, 9> kKinds = {{
     {"van", 0.08, {{{5.10, 0.50}, {1.96, 0.10}}}, {2.05, 0.25}},
     {"truck", 0.05, {{{7.00, 1.50}, {2.40, 0.20}}}, {3.00, 0.40}},
     {"bus", 0.03, {{{12.0, 1.20}, {2.55, 0.05}}}, {3.10, 0.20}},
-    {"two cars", 0.05, {{{9.20, 1.00}, {1.85, 0.10}}}, {1.55, 0.13}, 2},
-    {"car and more beside it", 0.04, {{{4.60, 0.60}, {2.90, 0.60}}}, {1.60, 0.20}, 2},
+    {"two cars", 0.05, {{{9.20, 1.00}, {1.85, 0.10}}}, {1.55, 0.13}, false},
+    {"car and more beside it", 0.04, {{{4.60, 0.60}, {2.90, 0.60}}}, {1.60, 0.20}, false},
 }};
 
 }  // namespace
@@ -27,7 +27,7 @@ bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd) {
     return std::abs(measured.mean - kind.mean) < most_sd * std::hypot(measured.sd, kind.sd);
   };
   return std::ranges::any_of(vehicle_kinds(), [&](const VehicleKind& kind) {
-    return kind.vehicles == 1 && fits(plan[0], kind.plan[0]) && fits(plan[1], kind.plan[1]);
+    return kind.one_vehicle && fits(plan[0], kind.plan[0]) && fits(plan[1], kind.plan[1]);
   });
 }
 

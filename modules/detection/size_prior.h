@@ -23,7 +23,7 @@ struct VehicleKind {
   double weight;               ///< of all vehicles
   std::array<Normal, 2> plan;  ///< length, width
   Normal height;
-  int vehicles = 1;
+  bool one_vehicle = true;  ///< false: what is to be split
 };
 
 [[nodiscard]] std::span<const VehicleKind> vehicle_kinds();

@@ -44,7 +44,7 @@ TEST(SizePrior, WhatIsAsLongAsATruckAndNoHigherThanACarIsTwoCars) {
       const double likelihood =
           kind.weight * std::exp(log_likelihood_of_top(top, kind, kHighest, 0.06) - 0.5 * z * z) /
           kind.plan[0].sd;
-      (kind.vehicles > 1 ? two : one) += likelihood;
+      (kind.one_vehicle ? one : two) += likelihood;
     }
     return two / one;
   };

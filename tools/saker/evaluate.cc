@@ -93,28 +93,6 @@ Json vehicle_json(const VehicleResult& v) {
   return row;
 }
 
-/// A number or nothing.
-std::string cell(const Json& value) {
-  return value.is_null() ? "-" : fmt::format("{:.3f}", value.get<double>());
-}
-
-std::string window_text(const Json& windows) {
-  std::string text = fmt::format(
-      "\nsingle windows: {} of {} measured, MAE of length {} m, width {} m; one box {} m\n"
-      "range m   angle deg  measured  length   width  one box\n",
-      windows["measured"].get<int>(), windows["labelled"].get<int>(), cell(windows["length_mae_m"]),
-      cell(windows["width_mae_m"]), cell(windows["box_size_mae_m"]));
-  for (const Json& row : windows["cells"]) {
-    text += fmt::format("{:2} … {:2}   {:2} … {:2}   {:4} of {:<4} {:>5}   {:>5}   {:>5}\n",
-                        row["range_m"][0].get<double>(), row["range_m"][1].get<double>(),
-                        row["angle_deg"][0].get<double>(), row["angle_deg"][1].get<double>(),
-                        row["measured"].get<int>(), row["labelled"].get<int>(),
-                        cell(row["length_mae_m"]), cell(row["width_mae_m"]),
-                        cell(row["box_size_mae_m"]));
-  }
-  return text;
-}
-
 /// The map and the windows of a run over the folder's scans, against the folder's vehicles.json.
 Json map_figures(const EvaluateOptions& options, const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common).autonomy;

@@ -198,4 +198,21 @@ std::string evaluation_text(const Json& figures) {
   return text;
 }
 
+std::string window_text(const Json& windows) {
+  std::string text = fmt::format(
+      "\nsingle windows: {} of {} measured, MAE of length {} m, width {} m; one box {} m\n"
+      "range m   angle deg  measured  length   width  one box\n",
+      windows["measured"].get<int>(), windows["labelled"].get<int>(), cell(windows["length_mae_m"]),
+      cell(windows["width_mae_m"]), cell(windows["box_size_mae_m"]));
+  for (const Json& row : windows["cells"]) {
+    text += fmt::format("{:2} … {:2}   {:2} … {:2}   {:4} of {:<4} {:>5}   {:>5}   {:>5}\n",
+                        row["range_m"][0].get<double>(), row["range_m"][1].get<double>(),
+                        row["angle_deg"][0].get<double>(), row["angle_deg"][1].get<double>(),
+                        row["measured"].get<int>(), row["labelled"].get<int>(),
+                        cell(row["length_mae_m"]), cell(row["width_mae_m"]),
+                        cell(row["box_size_mae_m"]));
+  }
+  return text;
+}
+
 }  // namespace saker::tools

@@ -41,4 +41,7 @@ class Evaluation {
 /// Tables for people of what `Evaluation::json` gives.
 [[nodiscard]] std::string evaluation_text(const nlohmann::ordered_json& figures);
 
+/// The same of `window_json` (window_figures.h).
+[[nodiscard]] std::string window_text(const nlohmann::ordered_json& windows);
+
 }  // namespace saker::tools

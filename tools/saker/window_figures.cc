@@ -55,8 +55,10 @@ double angle_deg(const VehicleLabel& label) {
 }
 
 WindowResult result_of(const Box& box, const std::vector<const objects::Cuboid*>& measured) {
-  WindowResult result{box.label->position.head<2>().norm(), angle_deg(*box.label), box.size, {}};
-  result.error.setConstant(NAN);
+  WindowResult result;
+  result.range_m = box.label->position.head<2>().norm();
+  result.angle_deg = angle_deg(*box.label);
+  result.size = box.size;
   double nearest = kWithin_m;
   for (const objects::Cuboid* cuboid : measured) {
     const Eigen::Vector3d off = cuboid->pose.translation() - box.label->position;
@@ -67,10 +69,10 @@ WindowResult result_of(const Box& box, const std::vector<const objects::Cuboid*>
   return result;
 }
 
-double rounded(double value) { return std::nearbyint(value * 1e4) / 1e4; }
-
+/// A figure of nothing is null.
 nlohmann::ordered_json number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(rounded(value)) : nullptr;
+  if (!std::isfinite(value)) return nullptr;
+  return std::nearbyint(value * 1e4) / 1e4;
 }
 
 /// Of the windows that measured the vehicle.
