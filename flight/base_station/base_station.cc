@@ -1,12 +1,12 @@
-#include "base_station/base_station.h"
+#include "flight/base_station/base_station.h"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "base_station/sealed.h"
-#include "bus/messages.h"
+#include "flight/base_station/sealed.h"
+#include "flight/bus/messages.h"
 
 namespace saker::flight {
 namespace {

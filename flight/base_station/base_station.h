@@ -5,12 +5,12 @@
 #include <set>
 #include <string>
 
-#include "base_station/relay.h"
-#include "base_station/store.h"
-#include "bus/bus.h"
-#include "exchange/exchange.h"
-#include "process/configuration.h"
-#include "process/loop_meter.h"
+#include "flight/base_station/relay.h"
+#include "flight/base_station/store.h"
+#include "flight/bus/bus.h"
+#include "flight/process/configuration.h"
+#include "flight/process/loop_meter.h"
+#include "saker/exchange/exchange.h"
 
 namespace saker::flight {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 namespace saker::flight {
 

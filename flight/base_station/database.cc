@@ -1,8 +1,8 @@
-#include "base_station/database.h"
+#include "flight/base_station/database.h"
 
 #include <sqlite3.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -7,13 +7,13 @@
 #include <future>
 #include <optional>
 
-#include "base_station/base_station.h"
-#include "bus/multicast.h"
-#include "bus/presence.h"
-#include "core/config_io.h"
-#include "core/error.h"
-#include "process/process.h"
-#include "process/service.h"
+#include "flight/base_station/base_station.h"
+#include "flight/bus/multicast.h"
+#include "flight/bus/presence.h"
+#include "flight/process/process.h"
+#include "flight/process/service.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -1,4 +1,4 @@
-#include "base_station/relay.h"
+#include "flight/base_station/relay.h"
 
 #include <spdlog/spdlog.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base_station/config.h"
-#include "bus/bus.h"
+#include "flight/base_station/config.h"
+#include "flight/bus/bus.h"
 
 namespace saker::flight {
 

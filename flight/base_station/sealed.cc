@@ -1,4 +1,4 @@
-#include "base_station/sealed.h"
+#include "flight/base_station/sealed.h"
 
 #include <cmath>
 #include <cstring>

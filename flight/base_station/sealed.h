@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/bus.h"
-#include "bus/exchange_messages.h"
-#include "exchange/seal.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/exchange_messages.h"
+#include "saker/exchange/seal.h"
 
 /// An order of the ground to a robot as it travels to the base: when it was sealed (8 bytes, µs of
 /// the system clock, little-endian) and the message's bytes, both sealed by the team's key for its

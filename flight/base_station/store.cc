@@ -1,4 +1,4 @@
-#include "base_station/store.h"
+#include "flight/base_station/store.h"
 
 #include <sodium.h>
 #include <spdlog/spdlog.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base_station/database.h"
-#include "exchange/store.h"
+#include "flight/base_station/database.h"
+#include "saker/exchange/store.h"
 
 namespace saker::flight {
 

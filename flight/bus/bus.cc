@@ -1,4 +1,4 @@
-#include "bus/bus.h"
+#include "flight/bus/bus.h"
 
 #include <poll.h>
 
@@ -6,9 +6,9 @@
 #include <exception>
 #include <regex>
 
-#include "bus/multicast.h"
-#include "bus/priority.h"
-#include "core/error.h"
+#include "flight/bus/multicast.h"
+#include "flight/bus/priority.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/channels.h"
-#include "core/config.h"
+#include "flight/bus/channels.h"
+#include "saker/core/config.h"
 
 namespace saker::flight {
 

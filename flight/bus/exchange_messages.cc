@@ -1,4 +1,4 @@
-#include "bus/exchange_messages.h"
+#include "flight/bus/exchange_messages.h"
 
 #include <chrono>
 

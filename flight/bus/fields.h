@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 /// Eigen ↔ the arrays of messages.
 namespace saker::flight {

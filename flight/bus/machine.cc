@@ -1,4 +1,4 @@
-#include "bus/machine.h"
+#include "flight/bus/machine.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <fstream>
 
-#include "bus/multicast.h"
-#include "core/error.h"
-#include "core/time.h"
-#include "lidar/udp_receiver.h"
+#include "flight/bus/multicast.h"
+#include "saker/core/error.h"
+#include "saker/core/time.h"
+#include "saker/lidar/udp_receiver.h"
 
 namespace saker::flight {
 namespace {

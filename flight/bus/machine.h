@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/bus.h"
+#include "flight/bus/bus.h"
 
 /// Whether this machine can fly a mission: what is wrong, and the command that mends it. The
 /// executive looks before it starts, `saker doctor` prints the same.

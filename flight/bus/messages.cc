@@ -1,9 +1,9 @@
-#include "bus/messages.h"
+#include "flight/bus/messages.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "bus/fields.h"
+#include "flight/bus/fields.h"
 
 namespace saker::flight {
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "bus/channels.h"
-#include "core/vehicle.h"
-#include "motion/trajectory.h"
+#include "flight/bus/channels.h"
+#include "saker/core/vehicle.h"
+#include "saker/motion/trajectory.h"
 
 /// The edge: plain structs ↔ LCM messages. Stamps lose what is below 1 µs (rounded down). Reading
 /// gives nothing where a field contradicts its comment in lcmtypes: wrong enumerators, sizes, or

@@ -1,4 +1,4 @@
-#include "bus/multicast.h"
+#include "flight/bus/multicast.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -11,7 +11,7 @@
 #include <cstring>
 #include <regex>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

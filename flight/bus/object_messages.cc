@@ -1,10 +1,10 @@
-#include "bus/object_messages.h"
+#include "flight/bus/object_messages.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "bus/fields.h"
-#include "bus/messages.h"
+#include "flight/bus/fields.h"
+#include "flight/bus/messages.h"
 
 namespace saker::flight {
 namespace {

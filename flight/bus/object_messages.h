@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "bus/channels.h"
-#include "objects/measurement.h"
-#include "objects/object_map.h"
+#include "flight/bus/channels.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_map.h"
 
 /// Objects ↔ `_OBJECTS` and `_DETECTIONS`: what people on the ground look at, one datagram each. Of
 /// a covariance only standard deviations travel, of the class probabilities only the largest; a

@@ -1,7 +1,7 @@
-#include "bus/occupancy_messages.h"
+#include "flight/bus/occupancy_messages.h"
 
-#include "bus/fields.h"
-#include "bus/messages.h"
+#include "flight/bus/fields.h"
+#include "flight/bus/messages.h"
 
 namespace saker::flight {
 namespace {

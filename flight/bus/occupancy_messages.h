@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "bus/channels.h"
-#include "bus/chunk_joiner.h"
-#include "occupancy/grid.h"
+#include "flight/bus/channels.h"
+#include "flight/bus/chunk_joiner.h"
+#include "saker/occupancy/grid.h"
 
 /// Local occupancy ↔ `_OCCUPANCY`: runs of equal cells (lcmtypes/occupancy_t.lcm), so that a block
 /// of 160³ cells, 4 MB, is some 0.1 MB.

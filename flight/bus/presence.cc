@@ -1,10 +1,10 @@
-#include "bus/presence.h"
+#include "flight/bus/presence.h"
 
 #include <unistd.h>
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "bus/bus.h"
+#include "flight/bus/bus.h"
 
 namespace saker::flight {
 

@@ -1,4 +1,4 @@
-#include "bus/priority.h"
+#include "flight/bus/priority.h"
 
 namespace saker::flight {
 

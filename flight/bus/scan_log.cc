@@ -1,12 +1,12 @@
-#include "bus/scan_log.h"
+#include "flight/bus/scan_log.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <fstream>
 
-#include "autonomy/open_beams.h"
-#include "core/error.h"
+#include "saker/autonomy/open_beams.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

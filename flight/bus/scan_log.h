@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "bus/scan_messages.h"
-#include "lidar/recording.h"
+#include "flight/bus/scan_messages.h"
+#include "saker/lidar/recording.h"
 
 namespace saker::flight {
 

@@ -1,11 +1,11 @@
-#include "bus/scan_messages.h"
+#include "flight/bus/scan_messages.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bus/fields.h"
-#include "bus/messages.h"
+#include "flight/bus/fields.h"
+#include "flight/bus/messages.h"
 
 namespace saker::flight {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "autonomy/plant.h"
-#include "bus/channels.h"
-#include "bus/chunk_joiner.h"
+#include "flight/bus/channels.h"
+#include "flight/bus/chunk_joiner.h"
+#include "saker/autonomy/plant.h"
 
 /// Registered scans ↔ `_SCAN`: coordinates in the lidar frame quantised to 1 cm and reflectivity to
 /// the sensor's byte, 8,500 points a chunk. Cost of a scan of 64×1024: 0.46 MB in eight chunks.

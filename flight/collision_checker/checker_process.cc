@@ -1,12 +1,12 @@
-#include "collision_checker/checker_process.h"
+#include "flight/collision_checker/checker_process.h"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "bus/messages.h"
-#include "bus/occupancy_messages.h"
+#include "flight/bus/messages.h"
+#include "flight/bus/occupancy_messages.h"
 
 namespace saker::flight {
 namespace {

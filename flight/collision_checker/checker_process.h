@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "bus/bus.h"
-#include "bus/scan_messages.h"
-#include "motion/collision_checker.h"
-#include "process/configuration.h"
-#include "process/loop_report.h"
-#include "process/sensor_clock.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/scan_messages.h"
+#include "flight/process/configuration.h"
+#include "flight/process/loop_report.h"
+#include "flight/process/sensor_clock.h"
+#include "saker/motion/collision_checker.h"
 
 namespace saker::flight {
 

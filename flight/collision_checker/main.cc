@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <memory>
 
-#include "bus/presence.h"
-#include "bus/priority.h"
-#include "collision_checker/checker_process.h"
-#include "core/config_io.h"
-#include "core/error.h"
-#include "process/process.h"
-#include "process/service.h"
-#include "saker/output.h"
+#include "flight/bus/presence.h"
+#include "flight/bus/priority.h"
+#include "flight/collision_checker/checker_process.h"
+#include "flight/command_line/output.h"
+#include "flight/process/process.h"
+#include "flight/process/service.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {
@@ -39,14 +39,13 @@ void serve(Bus& bus, Presence& presence, CheckerProcess& checker) {
 }
 
 /// What the report of the flight says of this process.
-void leave_loops(const tools::CommonOptions& output, const CheckerProcess& checker,
-                 Steady::duration ran) {
-  const tools::OutputFolder out(output);
+void leave_loops(const CommonOptions& output, const CheckerProcess& checker, Steady::duration ran) {
+  const OutputFolder out(output);
   write_loops(out / "loops.json", std::chrono::duration<double>(ran).count(), process_seconds(),
               checker.loops());
 }
 
-int run(const ProcessOptions& options, const tools::CommonOptions& output) {
+int run(const ProcessOptions& options, const CommonOptions& output) {
   const auto begin = Steady::now();
   const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
   Bus bus(config.bus, options.robot);
@@ -65,7 +64,7 @@ int run(const ProcessOptions& options, const tools::CommonOptions& output) {
 }  // namespace saker::flight
 
 int main(int argc, char** argv) {
-  auto output = std::make_shared<saker::tools::CommonOptions>();
+  auto output = std::make_shared<saker::flight::CommonOptions>();
   return saker::flight::run_program(
       {.name = "saker-collision-checker",
        .does = "Keeps the occupancy map of one robot and says how far its committed trajectory may "

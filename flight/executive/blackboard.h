@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "autonomy/mission.h"
-#include "autonomy/pipeline.h"
-#include "autonomy/planning.h"
-#include "bus/mailbox.h"
-#include "executive/shared_clock.h"
+#include "flight/bus/mailbox.h"
+#include "flight/executive/shared_clock.h"
+#include "saker/autonomy/mission.h"
+#include "saker/autonomy/pipeline.h"
+#include "saker/autonomy/planning.h"
 
 namespace saker::flight {
 

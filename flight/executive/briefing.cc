@@ -1,4 +1,4 @@
-#include "executive/briefing.h"
+#include "flight/executive/briefing.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <future>
 
-#include "core/config_folder.h"
-#include "core/error.h"
-#include "core/files.h"
-#include "objects/map_io.h"
-#include "process/process.h"
+#include "flight/process/process.h"
+#include "saker/core/config_folder.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::flight {
 namespace {
@@ -33,7 +33,8 @@ Briefing::Briefing(const ProcessConfig& config, RobotExchange& exchange, Bus& bu
       exchange_(exchange),
       bus_(bus),
       presence_(presence),
-      team_(config.team, config.autonomy.slam, config.autonomy.objects) {}
+      team_(config.team, config.autonomy.multirobot, config.autonomy.slam,
+            config.autonomy.objects) {}
 
 core::Budget Briefing::budget() const {
   return core::Budget::until(Steady::now() + seconds(config_.team.merge_s),

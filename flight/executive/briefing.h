@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "autonomy/team.h"
-#include "bus/bus.h"
-#include "bus/presence.h"
-#include "executive/robot_exchange.h"
-#include "process/configuration.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/presence.h"
+#include "flight/executive/robot_exchange.h"
+#include "flight/process/configuration.h"
+#include "saker/autonomy/team.h"
 
 namespace saker::flight {
 

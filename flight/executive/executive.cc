@@ -1,15 +1,15 @@
-#include "executive/executive.h"
+#include "flight/executive/executive.h"
 
 #include <spdlog/spdlog.h>
 
 #include <thread>
 
-#include "bus/messages.h"
-#include "core/error.h"
-#include "core/files.h"
-#include "objects/map_io.h"
-#include "process/loop_report.h"
-#include "process/process.h"
+#include "flight/bus/messages.h"
+#include "flight/process/loop_report.h"
+#include "flight/process/process.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::flight {
 namespace {

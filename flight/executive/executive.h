@@ -4,19 +4,19 @@
 #include <memory>
 #include <vector>
 
-#include "autonomy/body_pose.h"
-#include "autonomy/supervisor.h"
-#include "bus/bus.h"
-#include "bus/object_messages.h"
-#include "bus/occupancy_messages.h"
-#include "bus/presence.h"
-#include "core/timings.h"
-#include "executive/blackboard.h"
-#include "executive/loop.h"
-#include "executive/robot_exchange.h"
-#include "lidar/udp_receiver.h"
-#include "process/configuration.h"
-#include "process/service.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/object_messages.h"
+#include "flight/bus/occupancy_messages.h"
+#include "flight/bus/presence.h"
+#include "flight/executive/blackboard.h"
+#include "flight/executive/loop.h"
+#include "flight/executive/robot_exchange.h"
+#include "flight/process/configuration.h"
+#include "flight/process/service.h"
+#include "saker/autonomy/body_pose.h"
+#include "saker/autonomy/supervisor.h"
+#include "saker/core/timings.h"
+#include "saker/lidar/udp_receiver.h"
 
 /// The autonomy executive: the stages of `modules/autonomy` under real time, one thread a loop.
 ///

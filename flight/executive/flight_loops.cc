@@ -1,5 +1,5 @@
-#include "bus/messages.h"
-#include "executive/executive.h"
+#include "flight/bus/messages.h"
+#include "flight/executive/executive.h"
 
 /// The loops from the map to setpoints.
 namespace saker::flight {

@@ -1,4 +1,4 @@
-#include "executive/loop.h"
+#include "flight/executive/loop.h"
 
 #include <pthread.h>
 #include <sys/mman.h>

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "bus/mailbox.h"
-#include "process/loop_meter.h"
+#include "flight/bus/mailbox.h"
+#include "flight/process/loop_meter.h"
 
 namespace saker::flight {
 

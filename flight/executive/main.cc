@@ -1,14 +1,14 @@
 #include <spdlog/spdlog.h>
 
-#include "bus/machine.h"
-#include "core/config_io.h"
-#include "executive/briefing.h"
-#include "executive/executive.h"
-#include "lidar/metadata.h"
-#include "objects/map_io.h"
-#include "process/process.h"
-#include "process/service.h"
-#include "saker/output.h"
+#include "flight/bus/machine.h"
+#include "flight/command_line/output.h"
+#include "flight/executive/briefing.h"
+#include "flight/executive/executive.h"
+#include "flight/process/process.h"
+#include "flight/process/service.h"
+#include "saker/core/config_io.h"
+#include "saker/lidar/metadata.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::flight {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 struct FlightOptions {
   std::string prior;
   std::string metadata;
-  tools::CommonOptions output;
+  CommonOptions output;
 };
 
 int fly(const ProcessOptions& options, const FlightOptions& flight) {
@@ -38,7 +38,7 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
     input.figures = briefing->figures();
   }
   Executive executive(config, input, bus, presence);
-  const tools::OutputFolder out(flight.output);
+  const OutputFolder out(flight.output);
   spdlog::info("flies as {}", options.robot);
   if (briefing) spdlog::info(briefing->text());
   Service service;

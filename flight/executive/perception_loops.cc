@@ -1,7 +1,7 @@
-#include "bus/messages.h"
-#include "bus/scan_messages.h"
-#include "executive/executive.h"
-#include "lidar/imu_packet.h"
+#include "flight/bus/messages.h"
+#include "flight/bus/scan_messages.h"
+#include "flight/executive/executive.h"
+#include "saker/lidar/imu_packet.h"
 
 /// The loops from packets to the map.
 namespace saker::flight {

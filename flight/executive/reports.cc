@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bus/messages.h"
-#include "executive/executive.h"
-#include "process/loop_report.h"
+#include "flight/bus/messages.h"
+#include "flight/executive/executive.h"
+#include "flight/process/loop_report.h"
 
 /// What the executive says of itself: MISSION, PLAN, HEALTH, and lines.
 namespace saker::flight {

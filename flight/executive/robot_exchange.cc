@@ -1,12 +1,12 @@
-#include "executive/robot_exchange.h"
+#include "flight/executive/robot_exchange.h"
 
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <system_error>
 
-#include "bus/exchange_messages.h"
-#include "core/error.h"
+#include "flight/bus/exchange_messages.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "bus/bus.h"
-#include "bus/mailbox.h"
-#include "exchange/exchange.h"
-#include "exchange/journal_store.h"
-#include "exchange/packed_history.h"
-#include "process/configuration.h"
-#include "slam/history.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/mailbox.h"
+#include "flight/process/configuration.h"
+#include "saker/exchange/exchange.h"
+#include "saker/exchange/journal_store.h"
+#include "saker/exchange/packed_history.h"
+#include "saker/slam/history.h"
 
 namespace saker::flight {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "autonomy/config.h"
-#include "autonomy/team_config.h"
-#include "base_station/config.h"
-#include "bus/bus.h"
-#include "exchange/peer.h"
-#include "uncertainty/fit.h"
+#include "flight/base_station/config.h"
+#include "flight/bus/bus.h"
+#include "saker/autonomy/config.h"
+#include "saker/autonomy/team_config.h"
+#include "saker/exchange/peer.h"
+#include "saker/uncertainty/fit.h"
 
 namespace saker::flight {
 

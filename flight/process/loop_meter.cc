@@ -1,10 +1,10 @@
-#include "process/loop_meter.h"
+#include "flight/process/loop_meter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::flight {
 namespace {

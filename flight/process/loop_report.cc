@@ -1,9 +1,9 @@
-#include "process/loop_report.h"
+#include "flight/process/loop_report.h"
 
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "core/files.h"
+#include "saker/core/files.h"
 
 namespace saker::flight {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "process/loop_meter.h"
+#include "flight/process/loop_meter.h"
 
 namespace saker::flight {
 

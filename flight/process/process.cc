@@ -1,4 +1,4 @@
-#include "process/process.h"
+#include "flight/process/process.h"
 
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -8,7 +8,7 @@
 #include <csignal>
 #include <iostream>
 
-#include "process/service.h"
+#include "flight/process/service.h"
 
 namespace saker::flight {
 namespace {

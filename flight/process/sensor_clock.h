@@ -3,7 +3,7 @@
 #include <chrono>
 #include <optional>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 namespace saker::flight {
 

@@ -1,4 +1,4 @@
-#include "process/service.h"
+#include "flight/process/service.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 

@@ -1,11 +1,11 @@
-#include "active/active.h"
+#include "saker/active/active.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "active/pams.h"
-#include "active/visit.h"
-#include "core/error.h"
+#include "saker/active/pams.h"
+#include "saker/active/visit.h"
+#include "saker/core/error.h"
 
 namespace saker::active {
 namespace {

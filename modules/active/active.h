@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "active/discovery_config.h"
-#include "active/pams_config.h"
-#include "active/targets.h"
-#include "active/tour.h"
-#include "active/viewpoint.h"
-#include "core/budget.h"
-#include "core/config.h"
-#include "core/time.h"
-#include "motion/limits.h"
-#include "uncertainty/regions.h"
-#include "uncertainty/uncertainty.h"
+#include "saker/active/discovery_config.h"
+#include "saker/active/pams_config.h"
+#include "saker/active/targets.h"
+#include "saker/active/tour.h"
+#include "saker/active/viewpoint.h"
+#include "saker/core/budget.h"
+#include "saker/core/config.h"
+#include "saker/core/time.h"
+#include "saker/motion/limits.h"
+#include "saker/uncertainty/regions.h"
+#include "saker/uncertainty/uncertainty.h"
 
 /// Stage 6: where to look next — reads the object map (from `slam`), the occupancy block (from the
 /// collision checker) and the vehicle's pose at 1 Hz, makes the viewpoint to fly to (for `motion`

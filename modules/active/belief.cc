@@ -1,4 +1,4 @@
-#include "active/belief.h"
+#include "saker/active/belief.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

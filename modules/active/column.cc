@@ -1,4 +1,4 @@
-#include "active/column.h"
+#include "saker/active/column.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "active/viewpoint.h"
-#include "objects/object_map.h"
+#include "saker/active/viewpoint.h"
+#include "saker/objects/object_map.h"
 
 /// What stands on the ground at a place, as far as the map and the occupancy block say.
 namespace saker::active {

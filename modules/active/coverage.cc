@@ -1,11 +1,11 @@
-#include "active/coverage.h"
+#include "saker/active/coverage.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "active/column.h"
-#include "active/sweep_lines.h"
-#include "core/error.h"
+#include "saker/active/column.h"
+#include "saker/active/sweep_lines.h"
+#include "saker/core/error.h"
 
 namespace saker::active {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "active/discovery_config.h"
-#include "active/viewpoint.h"
-#include "motion/geofence.h"
-#include "objects/object_map.h"
+#include "saker/active/discovery_config.h"
+#include "saker/active/viewpoint.h"
+#include "saker/motion/geofence.h"
+#include "saker/objects/object_map.h"
 
 namespace saker::active {
 

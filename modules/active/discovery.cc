@@ -1,10 +1,10 @@
-#include "active/discovery.h"
+#include "saker/active/discovery.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "active/column.h"
-#include "core/se3.h"
+#include "saker/active/column.h"
+#include "saker/core/se3.h"
 
 namespace saker::active {
 namespace {

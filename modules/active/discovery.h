@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "active/active.h"
-#include "active/coverage.h"
-#include "motion/geofence.h"
+#include "saker/active/active.h"
+#include "saker/active/coverage.h"
+#include "saker/motion/geofence.h"
 
 namespace saker::active {
 

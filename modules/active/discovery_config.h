@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 /// Settings of what is done where the prior map is wrong, incomplete or absent.
 namespace saker::active {

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "active/belief.h"
-#include "core/config.h"
+#include "saker/active/belief.h"
+#include "saker/core/config.h"
 
 namespace saker::active {
 

@@ -1,11 +1,11 @@
-#include "active/field_of_view.h"
+#include "saker/active/field_of_view.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 namespace saker::active {
 namespace {

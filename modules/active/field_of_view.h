@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "core/config.h"
-#include "objects/models.h"
+#include "saker/core/config.h"
+#include "saker/objects/models.h"
 
 /// What the lidar has between its beams, mounted level or tilted.
 ///

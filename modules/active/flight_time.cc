@@ -1,4 +1,4 @@
-#include "active/flight_time.h"
+#include "saker/active/flight_time.h"
 
 #include <algorithm>
 #include <cmath>

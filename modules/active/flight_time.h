@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "motion/limits.h"
+#include "saker/motion/limits.h"
 
 namespace saker::active {
 

@@ -1,4 +1,4 @@
-#include "active/knowledge.h"
+#include "saker/active/knowledge.h"
 
 #include <algorithm>
 #include <cmath>

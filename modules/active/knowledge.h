@@ -2,11 +2,11 @@
 
 #include <map>
 
-#include "active/belief.h"
-#include "active/looks.h"
-#include "active/pams_config.h"
-#include "active/targets.h"
-#include "active/view_model.h"
+#include "saker/active/belief.h"
+#include "saker/active/looks.h"
+#include "saker/active/pams_config.h"
+#include "saker/active/targets.h"
+#include "saker/active/view_model.h"
 
 namespace saker::active {
 

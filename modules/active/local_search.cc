@@ -1,4 +1,4 @@
-#include "active/local_search.h"
+#include "saker/active/local_search.h"
 
 #include <algorithm>
 #include <numeric>

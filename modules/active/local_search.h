@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "active/tour.h"
-#include "core/rng.h"
+#include "saker/active/tour.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 

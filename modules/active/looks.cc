@@ -1,4 +1,4 @@
-#include "active/looks.h"
+#include "saker/active/looks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 namespace saker::active {
 

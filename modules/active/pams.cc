@@ -1,10 +1,10 @@
-#include "active/pams.h"
+#include "saker/active/pams.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "active/flight_time.h"
+#include "saker/active/flight_time.h"
 
 namespace saker::active {
 namespace {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "active/knowledge.h"
-#include "active/looks.h"
-#include "active/path_search.h"
-#include "active/reachability.h"
-#include "active/view_model.h"
-#include "active/visit.h"
-#include "motion/limits.h"
+#include "saker/active/knowledge.h"
+#include "saker/active/looks.h"
+#include "saker/active/path_search.h"
+#include "saker/active/reachability.h"
+#include "saker/active/view_model.h"
+#include "saker/active/visit.h"
+#include "saker/motion/limits.h"
 
 namespace saker::active {
 

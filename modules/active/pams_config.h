@@ -1,8 +1,8 @@
 #pragma once
 
-#include "active/faces.h"
-#include "active/region_samples.h"
-#include "core/config.h"
+#include "saker/active/faces.h"
+#include "saker/active/region_samples.h"
+#include "saker/core/config.h"
 
 namespace saker::active {
 

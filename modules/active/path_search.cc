@@ -1,4 +1,4 @@
-#include "active/path_search.h"
+#include "saker/active/path_search.h"
 
 #include <algorithm>
 #include <limits>

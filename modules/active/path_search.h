@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "active/belief.h"
+#include "saker/active/belief.h"
 
 /// Which viewpoints to fly to, and in which order.
 ///

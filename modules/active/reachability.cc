@@ -1,4 +1,4 @@
-#include "active/reachability.h"
+#include "saker/active/reachability.h"
 
 #include <algorithm>
 #include <cmath>

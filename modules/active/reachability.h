@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "active/viewpoint.h"
+#include "saker/active/viewpoint.h"
 
 namespace saker::active {
 

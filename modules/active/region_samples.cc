@@ -1,4 +1,4 @@
-#include "active/region_samples.h"
+#include "saker/active/region_samples.h"
 
 #include <algorithm>
 

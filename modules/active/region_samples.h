@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "active/viewpoint.h"
+#include "saker/active/viewpoint.h"
 
 namespace saker::active {
 

@@ -1,4 +1,4 @@
-#include "active/sides.h"
+#include "saker/active/sides.h"
 
 #include <algorithm>
 #include <cmath>

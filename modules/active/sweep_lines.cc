@@ -1,4 +1,4 @@
-#include "active/sweep_lines.h"
+#include "saker/active/sweep_lines.h"
 
 #include <algorithm>
 #include <cmath>

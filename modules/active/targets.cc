@@ -1,12 +1,12 @@
-#include "active/targets.h"
+#include "saker/active/targets.h"
 
 #include <algorithm>
 #include <limits>
 #include <variant>
 
-#include "core/error.h"
-#include "objects/assignment.h"
-#include "objects/measurement.h"
+#include "saker/core/error.h"
+#include "saker/objects/assignment.h"
+#include "saker/objects/measurement.h"
 
 namespace saker::active {
 namespace {

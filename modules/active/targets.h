@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "active/belief.h"
-#include "core/config.h"
-#include "objects/object_map.h"
+#include "saker/active/belief.h"
+#include "saker/core/config.h"
+#include "saker/objects/object_map.h"
 
 /// What the tour is for: the prior map's objects of target classes and those that discovery adds,
 /// each with the mapped object that it turned out to be.

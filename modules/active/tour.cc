@@ -1,9 +1,9 @@
-#include "active/tour.h"
+#include "saker/active/tour.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "active/local_search.h"
+#include "saker/active/local_search.h"
 
 namespace saker::active {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/budget.h"
-#include "core/config.h"
+#include "saker/core/budget.h"
+#include "saker/core/config.h"
 
 /// The order of the tour: a travelling salesman's path from where the vehicle is, through all
 /// stops, to a given end or to none.

@@ -1,10 +1,10 @@
-#include "active/touring.h"
+#include "saker/active/touring.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
 
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 namespace saker::active {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "active/active.h"
+#include "saker/active/active.h"
 
 namespace saker::active {
 

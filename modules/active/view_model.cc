@@ -1,9 +1,9 @@
-#include "active/view_model.h"
+#include "saker/active/view_model.h"
 
 #include <map>
 #include <utility>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::active {
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "uncertainty/regions.h"
-#include "uncertainty/uncertainty.h"
+#include "saker/uncertainty/regions.h"
+#include "saker/uncertainty/uncertainty.h"
 
 namespace saker::active {
 

@@ -1,4 +1,4 @@
-#include "active/viewpoint.h"
+#include "saker/active/viewpoint.h"
 
 #include <algorithm>
 #include <numbers>

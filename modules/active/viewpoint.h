@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "active/field_of_view.h"
-#include "core/config.h"
-#include "core/se3.h"
-#include "objects/models.h"
-#include "occupancy/grid.h"
+#include "saker/active/field_of_view.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/objects/models.h"
+#include "saker/occupancy/grid.h"
 
 /// Where to look from: what hides a target, candidate viewpoints.
 ///

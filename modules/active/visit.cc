@@ -1,9 +1,9 @@
-#include "active/visit.h"
+#include "saker/active/visit.h"
 
 #include <algorithm>
 #include <numbers>
 
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 namespace saker::active {
 namespace {

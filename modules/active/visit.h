@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "active/sides.h"
-#include "active/touring.h"
+#include "saker/active/sides.h"
+#include "saker/active/touring.h"
 
 namespace saker::active {
 

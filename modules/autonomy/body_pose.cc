@@ -1,4 +1,4 @@
-#include "autonomy/body_pose.h"
+#include "saker/autonomy/body_pose.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "core/vehicle.h"
-#include "lidar/scan.h"
-#include "odometry/imu_buffer.h"
-#include "odometry/inertial_filter.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/core/vehicle.h"
+#include "saker/lidar/scan.h"
+#include "saker/odometry/imu_buffer.h"
+#include "saker/odometry/inertial_filter.h"
 
 /// Where the body is between scans, 100 Hz — reads registered scans (from odometry, tens of
 /// milliseconds late) and the IMU's samples, makes the body's pose and velocity (for the flight

@@ -1,4 +1,4 @@
-#include "autonomy/cause.h"
+#include "saker/autonomy/cause.h"
 
 #include <iterator>
 

@@ -1,4 +1,4 @@
-#include "autonomy/command_sender.h"
+#include "saker/autonomy/command_sender.h"
 
 namespace saker::autonomy {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "core/config.h"
-#include "core/vehicle.h"
+#include "saker/core/config.h"
+#include "saker/core/vehicle.h"
 
 namespace saker::autonomy {
 

@@ -1,23 +1,24 @@
 #pragma once
 
-#include "active/active.h"
-#include "autonomy/body_pose.h"
-#include "autonomy/fitted_noise.h"
-#include "autonomy/guidance.h"
-#include "autonomy/local_checker.h"
-#include "autonomy/mission.h"
-#include "autonomy/planning.h"
-#include "autonomy/safety.h"
-#include "autonomy/standstill.h"
-#include "core/config.h"
-#include "detection/detection.h"
-#include "lidar/mount.h"
-#include "motion/collision_checker.h"
-#include "motion/motion.h"
-#include "objects/class_table.h"
-#include "odometry/odometry.h"
-#include "segmentation/segmentation.h"
-#include "slam/slam.h"
+#include "saker/active/active.h"
+#include "saker/autonomy/body_pose.h"
+#include "saker/autonomy/fitted_noise.h"
+#include "saker/autonomy/guidance.h"
+#include "saker/autonomy/local_checker.h"
+#include "saker/autonomy/mission.h"
+#include "saker/autonomy/planning.h"
+#include "saker/autonomy/safety.h"
+#include "saker/autonomy/standstill.h"
+#include "saker/core/config.h"
+#include "saker/detection/detection.h"
+#include "saker/lidar/mount.h"
+#include "saker/motion/collision_checker.h"
+#include "saker/motion/motion.h"
+#include "saker/multirobot/merge_config.h"
+#include "saker/objects/class_table.h"
+#include "saker/odometry/odometry.h"
+#include "saker/segmentation/segmentation.h"
+#include "saker/slam/slam.h"
 
 namespace saker::autonomy {
 
@@ -61,6 +62,7 @@ struct Config {
   segmentation::SegmentationConfig segmentation;
   detection::DetectionConfig detection;
   slam::SlamConfig slam;
+  multirobot::MergeConfig multirobot;
   UncertaintyConfig uncertainty;
   RateConfig rates;
   lidar::MountConfig mount;
@@ -83,6 +85,7 @@ struct Config {
     v.group("segmentation", segmentation, "range-image network");
     v.group("detection", detection, "virtual sensors: ground, vehicles, trunks and poles");
     v.group("slam", slam, "object SLAM");
+    v.group("multirobot", multirobot, "several robots in one graph");
     v.group("uncertainty", uncertainty, "what measurements are worth");
     v.group("rates", rates, "how often the stages run");
     v.group("mount", mount, "where the lidar is on the body: T_body_lidar");

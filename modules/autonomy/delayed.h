@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 namespace saker::autonomy {
 

@@ -1,15 +1,15 @@
-#include "autonomy/fitted_noise.h"
+#include "saker/autonomy/fitted_noise.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/config_folder.h"
-#include "core/error.h"
-#include "objects/stated_length.h"
-#include "objects/view_cell.h"
-#include "slam/model_algebra.h"
-#include "uncertainty/view.h"
+#include "saker/core/config_folder.h"
+#include "saker/core/error.h"
+#include "saker/objects/stated_length.h"
+#include "saker/objects/view_cell.h"
+#include "saker/slam/model_algebra.h"
+#include "saker/uncertainty/view.h"
 
 namespace saker::autonomy {
 namespace {

@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
-#include "objects/measurement.h"
-#include "objects/object_map.h"
-#include "slam/slam.h"
-#include "uncertainty/uncertainty.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_map.h"
+#include "saker/slam/slam.h"
+#include "saker/uncertainty/uncertainty.h"
 
 namespace saker::autonomy {
 

@@ -1,4 +1,4 @@
-#include "autonomy/guidance.h"
+#include "saker/autonomy/guidance.h"
 
 #include <fmt/format.h>
 

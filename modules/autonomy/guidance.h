@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "core/config.h"
-#include "core/vehicle.h"
-#include "motion/braking.h"
-#include "motion/trajectory.h"
+#include "saker/core/config.h"
+#include "saker/core/vehicle.h"
+#include "saker/motion/braking.h"
+#include "saker/motion/trajectory.h"
 
 /// Guidance, 50 Hz — reads the committed trajectory and the verdict on it, makes setpoints (for the
 /// flight controller). Everything is in `odom`.

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "active/targets.h"
-#include "objects/object_map.h"
+#include "saker/active/targets.h"
+#include "saker/objects/object_map.h"
 
 namespace saker::autonomy {
 

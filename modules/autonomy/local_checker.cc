@@ -1,4 +1,4 @@
-#include "autonomy/local_checker.h"
+#include "saker/autonomy/local_checker.h"
 
 #include <utility>
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "autonomy/delayed.h"
-#include "autonomy/schedule.h"
-#include "autonomy/stepped.h"
-#include "motion/collision_checker.h"
+#include "saker/autonomy/delayed.h"
+#include "saker/autonomy/schedule.h"
+#include "saker/autonomy/stepped.h"
+#include "saker/motion/collision_checker.h"
 
 namespace saker::autonomy {
 

@@ -1,4 +1,4 @@
-#include "autonomy/lockstep.h"
+#include "saker/autonomy/lockstep.h"
 
 #include <utility>
 

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/config.h"
-#include "autonomy/pipeline.h"
-#include "autonomy/schedule.h"
-#include "autonomy/worker_pool.h"
-#include "core/timings.h"
-#include "lidar/recording.h"
-#include "objects/measurement.h"
-#include "objects/object_map.h"
+#include "saker/autonomy/config.h"
+#include "saker/autonomy/pipeline.h"
+#include "saker/autonomy/schedule.h"
+#include "saker/autonomy/worker_pool.h"
+#include "saker/core/timings.h"
+#include "saker/lidar/recording.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_map.h"
 
 /// The lockstep driver: runs the stages over a recording or a simulated sensor in the sensor's time
 /// and a fixed order.

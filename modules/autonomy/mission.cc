@@ -1,4 +1,4 @@
-#include "autonomy/mission.h"
+#include "saker/autonomy/mission.h"
 
 #include <fmt/format.h>
 

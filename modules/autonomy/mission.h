@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/cause.h"
-#include "autonomy/command_sender.h"
-#include "autonomy/guidance.h"
-#include "autonomy/planning_report.h"
-#include "autonomy/safety.h"
-#include "core/config.h"
-#include "core/vehicle.h"
+#include "saker/autonomy/cause.h"
+#include "saker/autonomy/command_sender.h"
+#include "saker/autonomy/guidance.h"
+#include "saker/autonomy/planning_report.h"
+#include "saker/autonomy/safety.h"
+#include "saker/core/config.h"
+#include "saker/core/vehicle.h"
 
 /// The mission's state machine, 50 Hz — reads what the other stages say (safety, planning, the
 /// vehicle, acknowledgements), makes orders to guidance and planning, commands to the vehicle and

@@ -1,12 +1,12 @@
-#include "autonomy/mission_lockstep.h"
+#include "saker/autonomy/mission_lockstep.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
-#include "lidar/imu_packet.h"
+#include "saker/core/error.h"
+#include "saker/lidar/imu_packet.h"
 
 namespace saker::autonomy {
 namespace {

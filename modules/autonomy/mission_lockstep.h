@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/config.h"
-#include "autonomy/delayed.h"
-#include "autonomy/lockstep.h"
-#include "autonomy/pipeline.h"
-#include "autonomy/schedule.h"
-#include "autonomy/stepped.h"
-#include "autonomy/supervisor.h"
-#include "autonomy/worker_pool.h"
-#include "core/timings.h"
+#include "saker/autonomy/config.h"
+#include "saker/autonomy/delayed.h"
+#include "saker/autonomy/lockstep.h"
+#include "saker/autonomy/pipeline.h"
+#include "saker/autonomy/schedule.h"
+#include "saker/autonomy/stepped.h"
+#include "saker/autonomy/supervisor.h"
+#include "saker/autonomy/worker_pool.h"
+#include "saker/core/timings.h"
 
 /// The lockstep driver of a flown mission: every loop of the executive on the plant's time, in a
 /// fixed order, each result as late as on the vehicle's computer (`latency`).

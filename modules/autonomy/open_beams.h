@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/se3.h"
-#include "lidar/ray_table.h"
-#include "lidar/scan.h"
-#include "lidar/sensor_info.h"
+#include "saker/core/se3.h"
+#include "saker/lidar/ray_table.h"
+#include "saker/lidar/scan.h"
+#include "saker/lidar/sensor_info.h"
 
 namespace saker::autonomy {
 

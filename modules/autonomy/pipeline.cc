@@ -1,12 +1,12 @@
-#include "autonomy/pipeline.h"
+#include "saker/autonomy/pipeline.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "autonomy/incomplete_targets.h"
-#include "core/error.h"
+#include "saker/autonomy/incomplete_targets.h"
+#include "saker/core/error.h"
 
 namespace saker::autonomy {
 namespace {

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "active/targets.h"
-#include "autonomy/fitted_noise.h"
-#include "autonomy/open_beams.h"
-#include "autonomy/plant.h"
-#include "autonomy/standstill.h"
-#include "detection/detection.h"
-#include "lidar/ouster_stream.h"
-#include "objects/object_map.h"
-#include "odometry/odometry.h"
-#include "slam/slam.h"
+#include "saker/active/targets.h"
+#include "saker/autonomy/fitted_noise.h"
+#include "saker/autonomy/open_beams.h"
+#include "saker/autonomy/plant.h"
+#include "saker/autonomy/standstill.h"
+#include "saker/detection/detection.h"
+#include "saker/lidar/ouster_stream.h"
+#include "saker/objects/object_map.h"
+#include "saker/odometry/odometry.h"
+#include "saker/slam/slam.h"
 
 /// The perception stages of one vehicle, as calls: packets → scans → registered scans → labels →
 /// object map. Whoever drives them (lockstep or the executive's loops) gives each part one caller

@@ -1,4 +1,4 @@
-#include "autonomy/planning.h"
+#include "saker/autonomy/planning.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "active/discovery.h"
-#include "core/error.h"
+#include "saker/active/discovery.h"
+#include "saker/core/error.h"
 
 namespace saker::autonomy {
 namespace {

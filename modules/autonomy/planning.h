@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "active/active.h"
-#include "autonomy/guidance.h"
-#include "autonomy/pipeline.h"
-#include "autonomy/planning_report.h"
-#include "motion/motion.h"
+#include "saker/active/active.h"
+#include "saker/autonomy/guidance.h"
+#include "saker/autonomy/pipeline.h"
+#include "saker/autonomy/planning_report.h"
+#include "saker/motion/motion.h"
 
 /// The step of planning, 1 Hz — reads the map, the occupancy block and what is being flown, makes a
 /// proposal to guidance and a report for the mission.

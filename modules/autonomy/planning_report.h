@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 namespace saker::autonomy {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/vehicle.h"
-#include "motion/trajectory.h"
-#include "occupancy/grid.h"
+#include "saker/core/vehicle.h"
+#include "saker/motion/trajectory.h"
+#include "saker/occupancy/grid.h"
 
 /// What lies outside of the autonomy, behind interfaces: in one process on simulated time
 /// (lockstep) or over UDP and LCM (real time). No call blocks.

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/cause.h"
-#include "core/config.h"
-#include "core/vehicle.h"
-#include "motion/geofence.h"
+#include "saker/autonomy/cause.h"
+#include "saker/core/config.h"
+#include "saker/core/vehicle.h"
+#include "saker/motion/geofence.h"
 
 /// The safety ladder, 50 Hz — reads ages, odometry and the vehicle's state, makes the most severe
 /// action that they call for, with its cause (for the mission).

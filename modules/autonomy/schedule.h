@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 namespace saker::autonomy {
 

@@ -1,4 +1,4 @@
-#include "autonomy/standstill.h"
+#include "saker/autonomy/standstill.h"
 
 #include <algorithm>
 

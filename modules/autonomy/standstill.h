@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "lidar/scan.h"
+#include "saker/core/config.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::autonomy {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "autonomy/plant.h"
+#include "saker/autonomy/plant.h"
 
 namespace saker::autonomy {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "autonomy/mission.h"
-#include "autonomy/safety.h"
+#include "saker/autonomy/mission.h"
+#include "saker/autonomy/safety.h"
 
 namespace saker::autonomy {
 

@@ -1,4 +1,4 @@
-#include "autonomy/team.h"
+#include "saker/autonomy/team.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::autonomy {
 namespace {
@@ -14,14 +14,14 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kNobodyKnows = "nobody knows where it took off";
 
-const char* why(slam::MergeStatus status) {
+const char* why(multirobot::MergeStatus status) {
   switch (status) {
-    case slam::MergeStatus::not_aligned:
+    case multirobot::MergeStatus::not_aligned:
       return kNobodyKnows;
-    case slam::MergeStatus::invalid:
+    case multirobot::MergeStatus::invalid:
       return "not a flight";
-    case slam::MergeStatus::merged:
-    case slam::MergeStatus::nothing_new:
+    case multirobot::MergeStatus::merged:
+    case multirobot::MergeStatus::nothing_new:
       return "";
   }
   return "";
@@ -57,12 +57,13 @@ std::optional<slam::PosePrior> takeoff_pose(const TakeoffConfig& config) {
   return slam::PosePrior{T_base_world, covariance_of(config.survey)};
 }
 
-Team::Team(const TeamConfig& config, const slam::SlamConfig& slam, const objects::ClassTable& table)
+Team::Team(const TeamConfig& config, const multirobot::MergeConfig& merge,
+           const slam::SlamConfig& slam, const objects::ClassTable& table)
     : config_(core::checked(config, "team")),
       table_(table),
       takeoff_(takeoff_pose(config.takeoff)),
       lot_(lot_of(config)),
-      merged_(slam, table) {}
+      merged_(merge, slam, table) {}
 
 ToldFlight& Team::told_of(const slam::History& history) {
   const auto name = [](const ToldFlight& f) { return std::tie(f.robot, f.flight); };
@@ -92,7 +93,7 @@ void Team::merge(const exchange::UnpackedHistory& told, bool placed, const core:
   } else if (budget.used_up(0)) {
     flight.left_out = "no time was left";
   } else {
-    const slam::MergeReport report =
+    const multirobot::MergeReport report =
         merged_.add(told.history, placed ? told.takeoff : std::nullopt, budget);
     flight.merged += report.entries;
     flight.left_out = why(report.status);

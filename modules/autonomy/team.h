@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/team_config.h"
-#include "autonomy/team_map.h"
-#include "core/budget.h"
-#include "exchange/packed_history.h"
-#include "slam/merge.h"
+#include "saker/autonomy/team_config.h"
+#include "saker/autonomy/team_map.h"
+#include "saker/core/budget.h"
+#include "saker/exchange/packed_history.h"
+#include "saker/multirobot/merge.h"
 
 namespace saker::autonomy {
 
@@ -32,12 +32,13 @@ struct ToldFlight {
 /// are merged first, others where the map says surely where they were. Without it the frame is this
 /// robot's own `world`, and nothing is merged before it has flown.
 ///
-/// Method: slam::MultiRobotSlam, as `saker mission` merges. Cost: bounded by the budget; a flight
-/// of two minutes takes a second.
+/// Method: multirobot::MultiRobotSlam, as `saker mission` merges. Cost: bounded by the budget; a
+/// flight of two minutes takes a second.
 class Team {
  public:
   /// Throws Error on an invalid configuration.
-  Team(const TeamConfig& config, const slam::SlamConfig& slam, const objects::ClassTable& table);
+  Team(const TeamConfig& config, const multirobot::MergeConfig& merge, const slam::SlamConfig& slam,
+       const objects::ClassTable& table);
 
   /// Merges what is new of these; what does not fit into the budget can be given again.
   void add(std::span<const exchange::UnpackedHistory> told, const core::Budget& budget);
@@ -66,7 +67,7 @@ class Team {
   objects::ClassTable table_;
   std::optional<slam::PosePrior> takeoff_;
   Lot lot_;
-  slam::MultiRobotSlam merged_;
+  multirobot::MultiRobotSlam merged_;
   std::vector<ToldFlight> told_;
 };
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/config.h"
-#include "slam/trajectory.h"
+#include "saker/core/config.h"
+#include "saker/slam/trajectory.h"
 
 namespace saker::autonomy {
 

@@ -1,9 +1,9 @@
-#include "autonomy/team_map.h"
+#include "saker/autonomy/team_map.h"
 
 #include <algorithm>
 #include <map>
 
-#include "objects/comparison.h"
+#include "saker/objects/comparison.h"
 
 namespace saker::autonomy {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "active/targets.h"
-#include "motion/geofence.h"
-#include "objects/class_table.h"
-#include "objects/object_map.h"
+#include "saker/active/targets.h"
+#include "saker/motion/geofence.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/object_map.h"
 
 /// What a robot of a team is told before it flies.
 namespace saker::autonomy {

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/parallel.h"
+#include "saker/core/parallel.h"
 
 namespace saker::autonomy {
 

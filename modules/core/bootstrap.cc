@@ -1,11 +1,11 @@
-#include "core/bootstrap.h"
+#include "saker/core/bootstrap.h"
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
-#include "core/rng.h"
-#include "core/statistics.h"
+#include "saker/core/rng.h"
+#include "saker/core/statistics.h"
 
 namespace saker::core {
 

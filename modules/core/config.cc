@@ -1,8 +1,8 @@
-#include "core/config.h"
+#include "saker/core/config.h"
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::core {
 

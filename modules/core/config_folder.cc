@@ -1,9 +1,9 @@
-#include "core/config_folder.h"
+#include "saker/core/config_folder.h"
 
 #include <cstdlib>
 #include <vector>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/config_io.h"
+#include "saker/core/config_io.h"
 
 namespace saker::core {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/config_value.h"
+#include "saker/core/config_value.h"
 
 /// Configurations in YAML files: loaded over the defaults in the structs, saved with a comment on
 /// every key.

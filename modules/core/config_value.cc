@@ -1,10 +1,10 @@
-#include "core/config_value.h"
+#include "saker/core/config_value.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::core {
 namespace {

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/config.h"
-#include "core/files.h"
+#include "saker/core/config.h"
+#include "saker/core/files.h"
 
 /// Single values of a configuration, and where they stand: what config_io.h is made of.
 namespace saker::core {

@@ -1,4 +1,4 @@
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker {
 

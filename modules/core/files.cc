@@ -1,4 +1,4 @@
-#include "core/files.h"
+#include "saker/core/files.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::core {
 namespace {

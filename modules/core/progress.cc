@@ -1,4 +1,4 @@
-#include "core/progress.h"
+#include "saker/core/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

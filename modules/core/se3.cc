@@ -1,4 +1,4 @@
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 #include <algorithm>
 #include <cmath>

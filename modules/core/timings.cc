@@ -1,10 +1,10 @@
-#include "core/timings.h"
+#include "saker/core/timings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::core {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/se3.h"
-#include "core/time.h"
+#include "saker/core/se3.h"
+#include "saker/core/time.h"
 
 /// What crosses between the executive and the flight controller, as plain structs: the LCM messages
 /// (`lcmtypes`) hold the same fields. All stamps are the sensor's clock.

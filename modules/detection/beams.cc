@@ -1,4 +1,4 @@
-#include "detection/beams.h"
+#include "saker/detection/beams.h"
 
 #include <algorithm>
 #include <cmath>

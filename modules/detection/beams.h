@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "detection/window.h"
-#include "objects/models.h"
+#include "saker/detection/window.h"
+#include "saker/objects/models.h"
 
 namespace saker::detection {
 

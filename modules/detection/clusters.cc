@@ -1,4 +1,4 @@
-#include "detection/clusters.h"
+#include "saker/detection/clusters.h"
 
 #include <algorithm>
 #include <cmath>

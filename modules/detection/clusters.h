@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "detection/dbscan.h"
+#include "saker/core/config.h"
+#include "saker/detection/dbscan.h"
 
 namespace saker::detection {
 

@@ -1,9 +1,9 @@
-#include "detection/cylinder_fit.h"
+#include "saker/detection/cylinder_fit.h"
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::detection {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
 
 /// A trunk's or pole's cylinder, after Chen et al., "SLOAM", RA-L 2020 (III-B).
 ///

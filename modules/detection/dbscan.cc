@@ -1,4 +1,4 @@
-#include "detection/dbscan.h"
+#include "saker/detection/dbscan.h"
 
 #include <algorithm>
 #include <cmath>

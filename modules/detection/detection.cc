@@ -1,10 +1,10 @@
-#include "detection/detection.h"
+#include "saker/detection/detection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "detection/local_frame.h"
+#include "saker/detection/local_frame.h"
 
 namespace saker::detection {
 namespace {

@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "detection/beams.h"
-#include "detection/clusters.h"
-#include "detection/ground.h"
-#include "detection/surroundings.h"
-#include "detection/trunk.h"
-#include "detection/vehicle.h"
-#include "detection/window.h"
-#include "objects/measurement.h"
+#include "saker/detection/beams.h"
+#include "saker/detection/clusters.h"
+#include "saker/detection/ground.h"
+#include "saker/detection/surroundings.h"
+#include "saker/detection/trunk.h"
+#include "saker/detection/vehicle.h"
+#include "saker/detection/window.h"
+#include "saker/objects/measurement.h"
 
 /// Stage 3 — reads the labelled scans of the last seconds (from segmentation), makes ground planes,
 /// cuboids and cylinders with covariance (for SLAM): the paper's virtual sensors.

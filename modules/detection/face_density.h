@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "detection/face_fitter.h"
-#include "detection/size_prior.h"
+#include "saker/detection/face_fitter.h"
+#include "saker/detection/size_prior.h"
 
 /// Parts of face_fitter.h: one face's density on a grid, and two of them with a size's prior.
 namespace saker::detection {

@@ -1,4 +1,4 @@
-#include "detection/face_fitter.h"
+#include "saker/detection/face_fitter.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "detection/face_density.h"
+#include "saker/detection/face_density.h"
 
 namespace saker::detection {
 namespace {

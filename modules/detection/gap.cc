@@ -1,4 +1,4 @@
-#include "detection/gap.h"
+#include "saker/detection/gap.h"
 
 #include <algorithm>
 #include <cmath>

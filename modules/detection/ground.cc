@@ -1,4 +1,4 @@
-#include "detection/ground.h"
+#include "saker/detection/ground.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/config.h"
-#include "detection/window.h"
-#include "objects/models.h"
+#include "saker/core/config.h"
+#include "saker/detection/window.h"
+#include "saker/objects/models.h"
 
 /// Local ground planes on a grid, after the ground features of Chen et al., "SLOAM", RA-L 2020.
 ///

@@ -1,4 +1,4 @@
-#include "detection/hull.h"
+#include "saker/detection/hull.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,10 +1,10 @@
-#include "detection/hull_fitter.h"
+#include "saker/detection/hull_fitter.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "core/statistics.h"
-#include "detection/hull.h"
+#include "saker/core/statistics.h"
+#include "saker/detection/hull.h"
 
 namespace saker::detection {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/config.h"
-#include "detection/vehicle_fitter.h"
+#include "saker/core/config.h"
+#include "saker/detection/vehicle_fitter.h"
 
 namespace saker::detection {
 

@@ -1,4 +1,4 @@
-#include "detection/motion.h"
+#include "saker/detection/motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 /// Whether a cluster moves: the velocity under which its scans fall on each other.
 ///

@@ -1,4 +1,4 @@
-#include "detection/surroundings.h"
+#include "saker/detection/surroundings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "detection/ground.h"
-#include "objects/models.h"
+#include "saker/core/config.h"
+#include "saker/detection/ground.h"
+#include "saker/objects/models.h"
 
 /// The points of no object in and around an object. A wall's corner, a fence post and the edge of a
 /// hedge look like a trunk or pole in a range image, but belong to something that goes on beside

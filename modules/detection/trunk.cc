@@ -1,4 +1,4 @@
-#include "detection/trunk.h"
+#include "saker/detection/trunk.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/config.h"
-#include "detection/cylinder_fit.h"
-#include "objects/measurement.h"
+#include "saker/core/config.h"
+#include "saker/detection/cylinder_fit.h"
+#include "saker/objects/measurement.h"
 
 /// The virtual sensor of trunks and poles: a cluster's points to a cylinder with covariance, its
 /// root on the local ground. Refuses what leans, is too thick, too short, or floats.

@@ -1,12 +1,12 @@
-#include "detection/vehicle.h"
+#include "saker/detection/vehicle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "core/statistics.h"
-#include "detection/hull.h"
-#include "detection/size_prior.h"
+#include "saker/core/statistics.h"
+#include "saker/detection/hull.h"
+#include "saker/detection/size_prior.h"
 
 namespace saker::detection {
 namespace {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/config.h"
-#include "detection/face_fitter.h"
-#include "detection/gap.h"
-#include "detection/hull_fitter.h"
-#include "detection/motion.h"
-#include "detection/vehicle_fitter.h"
-#include "objects/measurement.h"
+#include "saker/core/config.h"
+#include "saker/detection/face_fitter.h"
+#include "saker/detection/gap.h"
+#include "saker/detection/hull_fitter.h"
+#include "saker/detection/motion.h"
+#include "saker/detection/vehicle_fitter.h"
+#include "saker/objects/measurement.h"
 
 /// The virtual sensor of vehicles: a cluster's points to a cuboid with covariance.
 ///

@@ -1,4 +1,4 @@
-#include "detection/vehicle_fitter.h"
+#include "saker/detection/vehicle_fitter.h"
 
 #include <algorithm>
 #include <limits>

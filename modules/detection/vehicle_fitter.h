@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "detection/beams.h"
-#include "detection/surroundings.h"
-#include "objects/models.h"
+#include "saker/detection/beams.h"
+#include "saker/detection/surroundings.h"
+#include "saker/objects/models.h"
 
 /// The plan of a vehicle, its rectangle on the ground, from the points of one window.
 ///

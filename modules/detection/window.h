@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "core/time.h"
-#include "lidar/scan.h"
-#include "objects/class_table.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/core/time.h"
+#include "saker/lidar/scan.h"
+#include "saker/objects/class_table.h"
 
 /// The labelled scans of the last seconds as one cloud, in a levelled frame: the last scan's
 /// origin, z up by odometry's frame.

@@ -1,4 +1,4 @@
-#include "exchange/coded.h"
+#include "saker/exchange/coded.h"
 
 namespace saker::exchange {
 namespace {

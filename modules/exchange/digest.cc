@@ -1,4 +1,4 @@
-#include "exchange/digest.h"
+#include "saker/exchange/digest.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "exchange/store.h"
+#include "saker/exchange/store.h"
 
 namespace saker::exchange {
 

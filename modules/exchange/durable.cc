@@ -1,4 +1,4 @@
-#include "exchange/durable.h"
+#include "saker/exchange/durable.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,10 +1,10 @@
-#include "exchange/exchange.h"
+#include "saker/exchange/exchange.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::exchange {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "exchange/peer.h"
-#include "exchange/seal.h"
-#include "exchange/store.h"
+#include "saker/exchange/peer.h"
+#include "saker/exchange/seal.h"
+#include "saker/exchange/store.h"
 
 /// Stage: what robots tell each other. Reads and makes sealed datagrams of at most
 /// kLongestDatagram bytes (for the channel _EXCHANGE, which may lose, repeat and reorder them) and

@@ -1,4 +1,4 @@
-#include "exchange/journal_store.h"
+#include "saker/exchange/journal_store.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "exchange/bytes.h"
-#include "exchange/durable.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/exchange/bytes.h"
+#include "saker/exchange/durable.h"
 
 namespace saker::exchange {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "exchange/store.h"
+#include "saker/exchange/store.h"
 
 namespace saker::exchange {
 

@@ -1,4 +1,4 @@
-#include "exchange/key.h"
+#include "saker/exchange/key.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,9 +10,9 @@
 #include <cstring>
 #include <string>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "exchange/durable.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/exchange/durable.h"
 
 namespace saker::exchange {
 namespace {

@@ -1,8 +1,8 @@
-#include "exchange/message.h"
+#include "saker/exchange/message.h"
 
 #include <algorithm>
 
-#include "exchange/bytes.h"
+#include "saker/exchange/bytes.h"
 
 namespace saker::exchange {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "exchange/stream.h"
+#include "saker/exchange/stream.h"
 
 /// The two messages of the protocol, as bytes (little-endian, variable-length integers).
 namespace saker::exchange {

@@ -1,4 +1,4 @@
-#include "exchange/packed_covariance.h"
+#include "saker/exchange/packed_covariance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "exchange/coded.h"
+#include "saker/exchange/coded.h"
 
 /// Covariances in few bytes: standard deviations in eighths of an octave (at most 4.5 % off), and
 /// canonical partial correlations, their inverse hyperbolic tangent in steps of 0.1. Any partial

@@ -1,12 +1,12 @@
-#include "exchange/packed_history.h"
+#include "saker/exchange/packed_history.h"
 
 #include <bit>
 #include <cmath>
 
-#include "exchange/bytes.h"
-#include "exchange/packed_covariance.h"
-#include "exchange/packed_measurement.h"
-#include "exchange/stream.h"
+#include "saker/exchange/bytes.h"
+#include "saker/exchange/packed_covariance.h"
+#include "saker/exchange/packed_measurement.h"
+#include "saker/exchange/stream.h"
 
 namespace saker::exchange {
 namespace {

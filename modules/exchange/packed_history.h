@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "exchange/coded.h"
-#include "slam/history.h"
-#include "slam/trajectory.h"
+#include "saker/exchange/coded.h"
+#include "saker/slam/history.h"
+#include "saker/slam/trajectory.h"
 
 /// A flight in bytes: a header, then one entry after another, so that what was packed earlier is
 /// the beginning of what is packed later.

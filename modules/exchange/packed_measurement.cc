@@ -1,9 +1,9 @@
-#include "exchange/packed_measurement.h"
+#include "saker/exchange/packed_measurement.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "exchange/packed_covariance.h"
+#include "saker/exchange/packed_covariance.h"
 
 namespace saker::exchange {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "exchange/coded.h"
-#include "objects/measurement.h"
+#include "saker/exchange/coded.h"
+#include "saker/objects/measurement.h"
 
 /// A measurement in about thirty bytes, as part of a packed history (packed_history.h has the
 /// steps).

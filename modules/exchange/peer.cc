@@ -1,4 +1,4 @@
-#include "exchange/peer.h"
+#include "saker/exchange/peer.h"
 
 #include <algorithm>
 

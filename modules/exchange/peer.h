@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/config.h"
-#include "core/time.h"
-#include "exchange/digest.h"
-#include "exchange/message.h"
-#include "exchange/store.h"
+#include "saker/core/config.h"
+#include "saker/core/time.h"
+#include "saker/exchange/digest.h"
+#include "saker/exchange/message.h"
+#include "saker/exchange/store.h"
 
 namespace saker::exchange {
 

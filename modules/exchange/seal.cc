@@ -1,4 +1,4 @@
-#include "exchange/seal.h"
+#include "saker/exchange/seal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,10 +10,10 @@
 #include <cstring>
 #include <vector>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "exchange/bytes.h"
-#include "exchange/durable.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/exchange/bytes.h"
+#include "saker/exchange/durable.h"
 
 namespace saker::exchange {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "exchange/key.h"
-#include "exchange/stream.h"
+#include "saker/exchange/key.h"
+#include "saker/exchange/stream.h"
 
 /// Messages that only the team can write, read and say once.
 ///

@@ -1,4 +1,4 @@
-#include "exchange/store.h"
+#include "saker/exchange/store.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exchange/stream.h"
+#include "saker/exchange/stream.h"
 
 namespace saker::exchange {
 

@@ -1,4 +1,4 @@
-#include "exchange/stream.h"
+#include "saker/exchange/stream.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
-#include "lidar/beam_sharpness.h"
+#include "saker/lidar/beam_sharpness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-#include "core/rng.h"
-#include "lidar/rings.h"
+#include "saker/core/rng.h"
+#include "saker/lidar/rings.h"
 
 namespace saker::lidar {
 namespace {

@@ -1,8 +1,8 @@
-#include "lidar/capture_reader.h"
+#include "saker/lidar/capture_reader.h"
 
 #include <pcap/pcap.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "lidar/datagrams.h"
+#include "saker/lidar/datagrams.h"
 
 struct pcap;
 

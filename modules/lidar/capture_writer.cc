@@ -1,11 +1,11 @@
-#include "lidar/capture_writer.h"
+#include "saker/lidar/capture_writer.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "core/error.h"
-#include "lidar/bytes.h"
+#include "saker/core/error.h"
+#include "saker/lidar/bytes.h"
 
 namespace saker::lidar {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/files.h"
-#include "core/time.h"
+#include "saker/core/files.h"
+#include "saker/core/time.h"
 
 namespace saker::lidar {
 

@@ -1,11 +1,11 @@
-#include "lidar/datagrams.h"
+#include "saker/lidar/datagrams.h"
 
 #include <pcap/pcap.h>
 
 #include <algorithm>
 #include <array>
 
-#include "lidar/bytes.h"
+#include "saker/lidar/bytes.h"
 
 namespace saker::lidar {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 /// UDP datagrams out of captured link-layer packets.
 namespace saker::lidar {

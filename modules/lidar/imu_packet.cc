@@ -1,8 +1,8 @@
-#include "lidar/imu_packet.h"
+#include "saker/lidar/imu_packet.h"
 
 #include <numbers>
 
-#include "lidar/bytes.h"
+#include "saker/lidar/bytes.h"
 
 namespace saker::lidar {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "lidar/scan.h"
-#include "lidar/sensor_info.h"
+#include "saker/lidar/scan.h"
+#include "saker/lidar/sensor_info.h"
 
 /// The inertial unit's packets (48 bytes), both ways. They carry accelerations in g and rates in
 /// degrees per second in the unit's own axes; an ImuSample is in SI units and in the sensor frame,

@@ -1,4 +1,4 @@
-#include "lidar/kitti_folder.h"
+#include "saker/lidar/kitti_folder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
-#include "core/error.h"
-#include "lidar/sensor_origin.h"
+#include "saker/core/error.h"
+#include "saker/lidar/sensor_origin.h"
 
 namespace saker::lidar {
 namespace {

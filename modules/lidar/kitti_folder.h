@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "lidar/recording.h"
+#include "saker/lidar/recording.h"
 
 namespace saker::lidar {
 

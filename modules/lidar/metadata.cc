@@ -1,12 +1,12 @@
-#include "lidar/metadata.h"
+#include "saker/lidar/metadata.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::lidar {
 namespace {

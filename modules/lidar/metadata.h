@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "lidar/sensor_info.h"
+#include "saker/lidar/sensor_info.h"
 
 /// Reads and writes the vendor's metadata JSON. Read are the flat form of firmware 2 and the nested
 /// one of firmware 3; what older firmware leaves out (profile, data format, transforms) gets the

@@ -1,10 +1,10 @@
-#include "lidar/mount.h"
+#include "saker/lidar/mount.h"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
 
 namespace saker::lidar {
 

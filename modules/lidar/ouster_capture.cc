@@ -1,8 +1,8 @@
-#include "lidar/ouster_capture.h"
+#include "saker/lidar/ouster_capture.h"
 
-#include "core/error.h"
-#include "lidar/imu_packet.h"
-#include "lidar/metadata.h"
+#include "saker/core/error.h"
+#include "saker/lidar/imu_packet.h"
+#include "saker/lidar/metadata.h"
 
 namespace saker::lidar {
 namespace {

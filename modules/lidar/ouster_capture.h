@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
-#include "lidar/capture_reader.h"
-#include "lidar/ouster_stream.h"
-#include "lidar/recording.h"
+#include "saker/lidar/capture_reader.h"
+#include "saker/lidar/ouster_stream.h"
+#include "saker/lidar/recording.h"
 
 namespace saker::lidar {
 

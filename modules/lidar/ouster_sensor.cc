@@ -1,4 +1,4 @@
-#include "lidar/ouster_sensor.h"
+#include "saker/lidar/ouster_sensor.h"
 
 #include <poll.h>
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "lidar/ouster_stream.h"
-#include "lidar/udp_receiver.h"
+#include "saker/lidar/ouster_stream.h"
+#include "saker/lidar/udp_receiver.h"
 
 namespace saker::lidar {
 

@@ -1,9 +1,9 @@
-#include "lidar/ouster_stream.h"
+#include "saker/lidar/ouster_stream.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "lidar/imu_packet.h"
+#include "saker/lidar/imu_packet.h"
 
 namespace saker::lidar {
 namespace {

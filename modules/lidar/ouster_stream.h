@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "lidar/recording.h"
-#include "lidar/scan_assembler.h"
-#include "lidar/sensor_info.h"
+#include "saker/lidar/recording.h"
+#include "saker/lidar/scan_assembler.h"
+#include "saker/lidar/sensor_info.h"
 
 namespace saker::lidar {
 

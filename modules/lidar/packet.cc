@@ -1,9 +1,9 @@
-#include "lidar/packet.h"
+#include "saker/lidar/packet.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "lidar/bytes.h"
+#include "saker/lidar/bytes.h"
 
 namespace saker::lidar {
 namespace {

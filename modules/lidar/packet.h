@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/time.h"
-#include "lidar/sensor_info.h"
+#include "saker/core/time.h"
+#include "saker/lidar/sensor_info.h"
 
 /// Ouster's lidar packets, both ways: bytes to columns and columns to bytes.
 ///

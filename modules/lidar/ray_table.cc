@@ -1,4 +1,4 @@
-#include "lidar/ray_table.h"
+#include "saker/lidar/ray_table.h"
 
 #include <cmath>
 #include <numbers>

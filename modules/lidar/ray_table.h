@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lidar/sensor_info.h"
+#include "saker/lidar/sensor_info.h"
 
 namespace saker::lidar {
 

@@ -1,10 +1,10 @@
-#include "lidar/recording.h"
+#include "saker/lidar/recording.h"
 
 #include <vector>
 
-#include "core/error.h"
-#include "lidar/kitti_folder.h"
-#include "lidar/ouster_capture.h"
+#include "saker/core/error.h"
+#include "saker/lidar/kitti_folder.h"
+#include "saker/lidar/ouster_capture.h"
 
 namespace saker::lidar {
 namespace {

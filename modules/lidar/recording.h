@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lidar/scan.h"
+#include "saker/lidar/scan.h"
 
 /// Stage 0: recordings and live sensors, scan by scan.
 ///

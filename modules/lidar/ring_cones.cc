@@ -1,10 +1,10 @@
-#include "lidar/ring_cones.h"
+#include "saker/lidar/ring_cones.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "lidar/rings.h"
+#include "saker/lidar/rings.h"
 
 namespace saker::lidar {
 namespace {

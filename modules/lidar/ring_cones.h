@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lidar/beam_sharpness.h"
+#include "saker/lidar/beam_sharpness.h"
 
 namespace saker::lidar {
 

@@ -1,11 +1,11 @@
-#include "lidar/rings.h"
+#include "saker/lidar/rings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "lidar/elevation_bands.h"
+#include "saker/lidar/elevation_bands.h"
 
 namespace saker::lidar {
 namespace {

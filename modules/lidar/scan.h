@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/se3.h"
-#include "core/time.h"
+#include "saker/core/se3.h"
+#include "saker/core/time.h"
 
 namespace saker::lidar {
 

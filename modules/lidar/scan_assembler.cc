@@ -1,4 +1,4 @@
-#include "lidar/scan_assembler.h"
+#include "saker/lidar/scan_assembler.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "lidar/packet.h"
-#include "lidar/ray_table.h"
-#include "lidar/scan.h"
+#include "saker/lidar/packet.h"
+#include "saker/lidar/ray_table.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::lidar {
 

@@ -1,10 +1,10 @@
-#include "lidar/sensor_info.h"
+#include "saker/lidar/sensor_info.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 /// What an Ouster sensor says of itself, as far as decoding needs it.
 ///

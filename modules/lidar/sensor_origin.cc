@@ -1,4 +1,4 @@
-#include "lidar/sensor_origin.h"
+#include "saker/lidar/sensor_origin.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
-#include "lidar/beam_sharpness.h"
-#include "lidar/nelder_mead.h"
-#include "lidar/ring_cones.h"
+#include "saker/lidar/beam_sharpness.h"
+#include "saker/lidar/nelder_mead.h"
+#include "saker/lidar/ring_cones.h"
 
 namespace saker::lidar {
 namespace {

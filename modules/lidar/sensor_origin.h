@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lidar/scan.h"
+#include "saker/lidar/scan.h"
 
 /// Where the beams of a recording start, for recordings that are published in another frame than
 /// the sensor's (a car's, for instance).

@@ -1,4 +1,4 @@
-#include "lidar/udp_receiver.h"
+#include "saker/lidar/udp_receiver.h"
 
 #include <netinet/in.h>
 #include <poll.h>
@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 namespace {

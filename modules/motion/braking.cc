@@ -1,4 +1,4 @@
-#include "motion/braking.h"
+#include "saker/motion/braking.h"
 
 #include <algorithm>
 #include <cmath>

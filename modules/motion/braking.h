@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/config.h"
-#include "motion/trajectory.h"
+#include "saker/core/config.h"
+#include "saker/motion/trajectory.h"
 
 /// Coming to rest along a trajectory — reads the trajectory that is flown, makes the one that
 /// brakes on it (for guidance).

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/collision_checker.h"
+#include "saker/motion/collision_checker.h"
 
 #include <utility>
 

@@ -2,12 +2,12 @@
 
 #include <span>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "motion/clearance.h"
-#include "motion/trajectory.h"
-#include "motion/verdict.h"
-#include "occupancy/occupancy.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/motion/clearance.h"
+#include "saker/motion/trajectory.h"
+#include "saker/motion/verdict.h"
+#include "saker/occupancy/occupancy.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/curve.h"
+#include "saker/motion/curve.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "motion/free_space.h"
-#include "motion/path.h"
+#include "saker/motion/free_space.h"
+#include "saker/motion/path.h"
 
 namespace saker::motion {
 

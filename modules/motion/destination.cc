@@ -1,4 +1,4 @@
-#include "motion/destination.h"
+#include "saker/motion/destination.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/budget.h"
-#include "motion/free_space.h"
+#include "saker/core/budget.h"
+#include "saker/motion/free_space.h"
 
 namespace saker::motion {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "motion/clearance.h"
-#include "motion/geofence.h"
-#include "occupancy/distance_field.h"
-#include "occupancy/grid.h"
+#include "saker/motion/clearance.h"
+#include "saker/motion/geofence.h"
+#include "saker/occupancy/distance_field.h"
+#include "saker/occupancy/grid.h"
 
 namespace saker::motion {
 

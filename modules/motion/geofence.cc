@@ -1,10 +1,10 @@
-#include "motion/geofence.h"
+#include "saker/motion/geofence.h"
 
 #include <algorithm>
 #include <limits>
 #include <string>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::motion {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/motion.h"
+#include "saker/motion/motion.h"
 
 #include <ompl/util/Console.h>
 
@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <utility>
 
-#include "motion/curve.h"
-#include "motion/destination.h"
-#include "motion/free_space.h"
-#include "motion/retiming.h"
-#include "motion/speed_profile.h"
-#include "motion/trajectory_check.h"
+#include "saker/motion/curve.h"
+#include "saker/motion/destination.h"
+#include "saker/motion/free_space.h"
+#include "saker/motion/retiming.h"
+#include "saker/motion/speed_profile.h"
+#include "saker/motion/trajectory_check.h"
 
 namespace saker::motion {
 namespace {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "core/budget.h"
-#include "motion/clearance.h"
-#include "motion/geofence.h"
-#include "motion/limits.h"
-#include "motion/search.h"
-#include "motion/trajectory.h"
-#include "occupancy/grid.h"
+#include "saker/core/budget.h"
+#include "saker/motion/clearance.h"
+#include "saker/motion/geofence.h"
+#include "saker/motion/limits.h"
+#include "saker/motion/search.h"
+#include "saker/motion/trajectory.h"
+#include "saker/occupancy/grid.h"
 
 /// Motion planning: reads one occupancy snapshot and a goal, makes a collision-free timed
 /// trajectory that ends at rest (for guidance and the collision checker).

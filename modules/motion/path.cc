@@ -1,8 +1,8 @@
-#include "motion/path.h"
+#include "saker/motion/path.h"
 
 #include <algorithm>
 
-#include "motion/free_space.h"
+#include "saker/motion/free_space.h"
 
 namespace saker::motion {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::motion {
 

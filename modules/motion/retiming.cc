@@ -1,9 +1,9 @@
-#include "motion/retiming.h"
+#include "saker/motion/retiming.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "motion/yaw.h"
+#include "saker/motion/yaw.h"
 
 namespace saker::motion {
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "motion/curve.h"
-#include "motion/limits.h"
-#include "motion/trajectory.h"
+#include "saker/motion/curve.h"
+#include "saker/motion/limits.h"
+#include "saker/motion/trajectory.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/search.h"
+#include "saker/motion/search.h"
 
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/goals/GoalState.h>
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "motion/free_space.h"
+#include "saker/motion/free_space.h"
 
 namespace saker::motion {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/budget.h"
-#include "core/config.h"
-#include "motion/path.h"
+#include "saker/core/budget.h"
+#include "saker/core/config.h"
+#include "saker/motion/path.h"
 
 namespace saker::motion {
 

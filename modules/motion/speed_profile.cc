@@ -1,4 +1,4 @@
-#include "motion/speed_profile.h"
+#include "saker/motion/speed_profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "motion/curve.h"
-#include "motion/limits.h"
+#include "saker/motion/curve.h"
+#include "saker/motion/limits.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/trajectory.h"
+#include "saker/motion/trajectory.h"
 
 #include <algorithm>
 #include <cmath>

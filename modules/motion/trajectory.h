@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/time.h"
+#include "saker/core/time.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "motion/trajectory_check.h"
+#include "saker/motion/trajectory_check.h"
 
 #include <algorithm>
 #include <cmath>

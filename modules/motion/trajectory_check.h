@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "motion/free_space.h"
-#include "motion/limits.h"
-#include "motion/trajectory.h"
+#include "saker/motion/free_space.h"
+#include "saker/motion/limits.h"
+#include "saker/motion/trajectory.h"
 
 namespace saker::motion {
 

@@ -1,10 +1,10 @@
-#include "motion/verdict.h"
+#include "saker/motion/verdict.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "occupancy/distance_field.h"
+#include "saker/occupancy/distance_field.h"
 
 namespace saker::motion {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 
-#include "core/config.h"
-#include "motion/clearance.h"
-#include "motion/trajectory.h"
-#include "occupancy/grid.h"
+#include "saker/core/config.h"
+#include "saker/motion/clearance.h"
+#include "saker/motion/trajectory.h"
+#include "saker/occupancy/grid.h"
 
 namespace saker::motion {
 

@@ -1,10 +1,10 @@
-#include "motion/yaw.h"
+#include "saker/motion/yaw.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "motion/trajectory.h"
+#include "saker/motion/trajectory.h"
 
 namespace saker::motion {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "motion/limits.h"
+#include "saker/motion/limits.h"
 
 namespace saker::motion {
 

@@ -1,4 +1,4 @@
-#include "objects/assignment.h"
+#include "saker/objects/assignment.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "objects/checksum.h"
+#include "saker/objects/checksum.h"
 
 #include <array>
 

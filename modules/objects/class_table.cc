@@ -1,10 +1,10 @@
-#include "objects/class_table.h"
+#include "saker/objects/class_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::objects {
 

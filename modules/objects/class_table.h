@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 namespace saker::objects {
 

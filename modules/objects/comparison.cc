@@ -1,11 +1,11 @@
-#include "objects/comparison.h"
+#include "saker/objects/comparison.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/statistics.h"
-#include "objects/assignment.h"
+#include "saker/core/statistics.h"
+#include "saker/objects/assignment.h"
 
 namespace saker::objects {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
-#include "objects/object_map.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/object_map.h"
 
 /// A map against the truth: one-to-one within a class, nearest in x-y (Hungarian). Error = mapped −
 /// true; means are signed.

@@ -1,9 +1,9 @@
-#include "objects/consistency.h"
+#include "saker/objects/consistency.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::objects {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "objects/comparison.h"
+#include "saker/objects/comparison.h"
 
 /// Whether a map knows how good it is: the error of each found object in units of what its
 /// covariance says (normalised estimation error squared, NEES; Bar-Shalom, Li, Kirubarajan,

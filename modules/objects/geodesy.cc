@@ -1,11 +1,11 @@
-#include "objects/geodesy.h"
+#include "saker/objects/geodesy.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::objects {
 namespace {

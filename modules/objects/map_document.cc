@@ -1,13 +1,13 @@
-#include "objects/map_document.h"
+#include "saker/objects/map_document.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "objects/measurement.h"
-#include "objects/object_numbers.h"
+#include "saker/core/error.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_numbers.h"
 
 namespace saker::objects {
 namespace {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "objects/class_table.h"
-#include "objects/object_map.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/object_map.h"
 
 /// The tree of values behind both forms of a map's file.
 namespace saker::objects {

@@ -1,4 +1,4 @@
-#include "objects/map_export.h"
+#include "saker/objects/map_export.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/picture.h"
-#include "objects/object_numbers.h"
+#include "saker/core/colour.h"
+#include "saker/objects/object_numbers.h"
 
 namespace saker::objects {
 namespace {

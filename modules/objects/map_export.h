@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "objects/class_table.h"
-#include "objects/geodesy.h"
-#include "objects/object_map.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/geodesy.h"
+#include "saker/objects/object_map.h"
 
 /// Object maps for other programs; none of these forms is read back.
 namespace saker::objects {

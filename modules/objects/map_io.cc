@@ -1,14 +1,14 @@
-#include "objects/map_io.h"
+#include "saker/objects/map_io.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "objects/map_document.h"
-#include "objects/map_export.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/objects/map_document.h"
+#include "saker/objects/map_export.h"
 
 namespace saker::objects {
 namespace {

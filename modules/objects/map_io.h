@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "objects/class_table.h"
-#include "objects/geodesy.h"
-#include "objects/object_map.h"
-#include "objects/smap.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/geodesy.h"
+#include "saker/objects/object_map.h"
+#include "saker/objects/smap.h"
 
 /// Object maps in files: JSON for people and scripts, `.smap` for everything else. Both hold the
 /// same.

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/time.h"
-#include "objects/class_table.h"
-#include "objects/models.h"
+#include "saker/core/time.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/models.h"
 
 namespace saker::objects {
 

@@ -1,4 +1,4 @@
-#include "objects/models.h"
+#include "saker/objects/models.h"
 
 namespace saker::objects {
 

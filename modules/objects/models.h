@@ -3,7 +3,7 @@
 #include <cmath>
 #include <variant>
 
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 namespace saker::objects {
 

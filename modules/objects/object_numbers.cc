@@ -1,10 +1,10 @@
-#include "objects/object_numbers.h"
+#include "saker/objects/object_numbers.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "objects/measurement.h"
+#include "saker/core/error.h"
+#include "saker/objects/measurement.h"
 
 namespace saker::objects {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "objects/object_map.h"
+#include "saker/objects/object_map.h"
 
 /// The numbers by which files name an object, and the object that they make.
 namespace saker::objects {

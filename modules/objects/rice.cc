@@ -1,4 +1,4 @@
-#include "objects/rice.h"
+#include "saker/objects/rice.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::objects {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "objects/object_map.h"
-#include "objects/smap_details.h"
-#include "objects/smap_head.h"
+#include "saker/objects/object_map.h"
+#include "saker/objects/smap_details.h"
+#include "saker/objects/smap_head.h"
 
 /// Large maps in few bytes, read by region: `.smap` version 2.
 ///

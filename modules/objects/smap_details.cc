@@ -1,13 +1,13 @@
-#include "objects/smap_details.h"
+#include "saker/objects/smap_details.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "core/error.h"
-#include "objects/measurement.h"
-#include "objects/object_numbers.h"
-#include "objects/rice.h"
+#include "saker/core/error.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_numbers.h"
+#include "saker/objects/rice.h"
 
 namespace saker::objects {
 namespace {

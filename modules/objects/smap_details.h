@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "objects/object_map.h"
+#include "saker/objects/object_map.h"
 
 /// The other parts of a tile, in Rice's code as well: what a map's JSON says to six decimals.
 /// Ground planes; and of its objects, in the order of the geometry, place in the list of the map,

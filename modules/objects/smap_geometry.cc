@@ -1,4 +1,4 @@
-#include "objects/smap_geometry.h"
+#include "saker/objects/smap_geometry.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
-#include "objects/object_numbers.h"
-#include "objects/rice.h"
+#include "saker/core/error.h"
+#include "saker/objects/object_numbers.h"
+#include "saker/objects/rice.h"
 
 namespace saker::objects {
 namespace {

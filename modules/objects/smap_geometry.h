@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "objects/object_map.h"
-#include "objects/smap_head.h"
+#include "saker/objects/object_map.h"
+#include "saker/objects/smap_head.h"
 
 /// The first part of a tile: class, probability and model of its objects in whole steps, as columns
 /// in Rice's code. Objects stand in the order of a Morton curve through the tile, so that a place

@@ -1,15 +1,15 @@
-#include "objects/smap_head.h"
+#include "saker/objects/smap_head.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/config.h"
-#include "core/error.h"
-#include "objects/checksum.h"
-#include "objects/object_numbers.h"
-#include "objects/rice.h"
+#include "saker/core/config.h"
+#include "saker/core/error.h"
+#include "saker/objects/checksum.h"
+#include "saker/objects/object_numbers.h"
+#include "saker/objects/rice.h"
 
 namespace saker::objects {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "objects/class_table.h"
+#include "saker/objects/class_table.h"
 
 namespace saker::objects {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
-#include "objects/checksum.h"
-#include "objects/object_numbers.h"
-#include "objects/smap.h"
-#include "objects/smap_details.h"
-#include "objects/smap_geometry.h"
+#include "saker/core/error.h"
+#include "saker/objects/checksum.h"
+#include "saker/objects/object_numbers.h"
+#include "saker/objects/smap.h"
+#include "saker/objects/smap_details.h"
+#include "saker/objects/smap_geometry.h"
 
 namespace saker::objects {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "objects/measurement.h"
-#include "objects/models.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/models.h"
 
 namespace saker::objects {
 

@@ -1,4 +1,4 @@
-#include "occupancy/distance_field.h"
+#include "saker/occupancy/distance_field.h"
 
 #include <algorithm>
 

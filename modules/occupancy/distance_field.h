@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "occupancy/grid.h"
+#include "saker/occupancy/grid.h"
 
 namespace saker::occupancy {
 

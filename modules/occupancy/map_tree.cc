@@ -1,4 +1,4 @@
-#include "occupancy/map_tree.h"
+#include "saker/occupancy/map_tree.h"
 
 #include <algorithm>
 

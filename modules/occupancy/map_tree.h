@@ -2,8 +2,8 @@
 
 #include <octomap/octomap.h>
 
-#include "occupancy/grid.h"
-#include "occupancy/scan_box.h"
+#include "saker/occupancy/grid.h"
+#include "saker/occupancy/scan_box.h"
 
 namespace saker::occupancy {
 

@@ -1,9 +1,9 @@
-#include "occupancy/occupancy.h"
+#include "saker/occupancy/occupancy.h"
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::occupancy {
 namespace {

@@ -3,11 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "occupancy/grid.h"
-#include "occupancy/map_tree.h"
-#include "occupancy/scan_box.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/occupancy/grid.h"
+#include "saker/occupancy/map_tree.h"
+#include "saker/occupancy/scan_box.h"
 
 namespace saker::occupancy {
 

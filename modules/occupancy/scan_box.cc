@@ -1,4 +1,4 @@
-#include "occupancy/scan_box.h"
+#include "saker/occupancy/scan_box.h"
 
 #include <algorithm>
 #include <cmath>

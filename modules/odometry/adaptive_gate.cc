@@ -1,4 +1,4 @@
-#include "odometry/adaptive_gate.h"
+#include "saker/odometry/adaptive_gate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/config.h"
-#include "core/se3.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
 
 namespace saker::odometry {
 

@@ -1,4 +1,4 @@
-#include "odometry/inertial_filter.h"
+#include "saker/odometry/inertial_filter.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "lidar/scan.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::odometry {
 

@@ -1,9 +1,9 @@
-#include "odometry/motion_model.h"
+#include "saker/odometry/motion_model.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "odometry/rotation_track.h"
+#include "saker/odometry/rotation_track.h"
 
 namespace saker::odometry {
 namespace {

@@ -3,12 +3,12 @@
 #include <optional>
 #include <span>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "lidar/scan.h"
-#include "odometry/inertial_filter.h"
-#include "odometry/registration.h"
-#include "odometry/sweep.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/lidar/scan.h"
+#include "saker/odometry/inertial_filter.h"
+#include "saker/odometry/registration.h"
+#include "saker/odometry/sweep.h"
 
 namespace saker::odometry {
 

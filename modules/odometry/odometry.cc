@@ -1,4 +1,4 @@
-#include "odometry/odometry.h"
+#include "saker/odometry/odometry.h"
 
 namespace saker::odometry {
 namespace {

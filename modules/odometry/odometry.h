@@ -3,16 +3,16 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "lidar/scan.h"
-#include "odometry/adaptive_gate.h"
-#include "odometry/imu_buffer.h"
-#include "odometry/motion_model.h"
-#include "odometry/registration.h"
-#include "odometry/sweep.h"
-#include "odometry/voxel_filter.h"
-#include "odometry/voxel_map.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/lidar/scan.h"
+#include "saker/odometry/adaptive_gate.h"
+#include "saker/odometry/imu_buffer.h"
+#include "saker/odometry/motion_model.h"
+#include "saker/odometry/registration.h"
+#include "saker/odometry/sweep.h"
+#include "saker/odometry/voxel_filter.h"
+#include "saker/odometry/voxel_map.h"
 
 namespace saker::odometry {
 

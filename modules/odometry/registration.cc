@@ -1,4 +1,4 @@
-#include "odometry/registration.h"
+#include "saker/odometry/registration.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

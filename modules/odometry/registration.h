@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "odometry/voxel_map.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/odometry/voxel_map.h"
 
 namespace saker::odometry {
 

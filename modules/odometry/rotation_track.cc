@@ -1,4 +1,4 @@
-#include "odometry/rotation_track.h"
+#include "saker/odometry/rotation_track.h"
 
 #include <algorithm>
 #include <cmath>

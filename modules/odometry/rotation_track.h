@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "core/se3.h"
-#include "lidar/scan.h"
+#include "saker/core/se3.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::odometry {
 

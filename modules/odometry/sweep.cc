@@ -1,4 +1,4 @@
-#include "odometry/sweep.h"
+#include "saker/odometry/sweep.h"
 
 #include <algorithm>
 

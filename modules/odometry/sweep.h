@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "core/se3.h"
-#include "lidar/scan.h"
-#include "odometry/rotation_track.h"
+#include "saker/core/se3.h"
+#include "saker/lidar/scan.h"
+#include "saker/odometry/rotation_track.h"
 
 namespace saker::odometry {
 

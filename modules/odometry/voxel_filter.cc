@@ -1,4 +1,4 @@
-#include "odometry/voxel_filter.h"
+#include "saker/odometry/voxel_filter.h"
 
 namespace saker::odometry {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "odometry/voxel_index.h"
+#include "saker/odometry/voxel_index.h"
 
 namespace saker::odometry {
 

@@ -1,4 +1,4 @@
-#include "odometry/voxel_index.h"
+#include "saker/odometry/voxel_index.h"
 
 #include <bit>
 

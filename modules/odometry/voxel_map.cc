@@ -1,4 +1,4 @@
-#include "odometry/voxel_map.h"
+#include "saker/odometry/voxel_map.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "core/time.h"
-#include "odometry/voxel_index.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/core/time.h"
+#include "saker/odometry/voxel_index.h"
 
 namespace saker::odometry {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "lidar/scan.h"
-#include "segmentation/network.h"
-#include "segmentation/range_image.h"
+#include "saker/lidar/scan.h"
+#include "saker/segmentation/network.h"
+#include "saker/segmentation/range_image.h"
 
 namespace saker::segmentation {
 

@@ -1,4 +1,4 @@
-#include "segmentation/beam_spacing.h"
+#include "saker/segmentation/beam_spacing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "segmentation/range_image.h"
+#include "saker/segmentation/range_image.h"
 
 namespace saker::segmentation {
 

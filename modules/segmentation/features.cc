@@ -1,4 +1,4 @@
-#include "segmentation/features.h"
+#include "saker/segmentation/features.h"
 
 #include <algorithm>
 #include <cmath>

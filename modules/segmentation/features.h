@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "segmentation/beam_spacing.h"
-#include "segmentation/ground_height.h"
-#include "segmentation/range_image.h"
+#include "saker/segmentation/beam_spacing.h"
+#include "saker/segmentation/ground_height.h"
+#include "saker/segmentation/range_image.h"
 
 namespace saker::segmentation {
 

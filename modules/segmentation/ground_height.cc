@@ -1,4 +1,4 @@
-#include "segmentation/ground_height.h"
+#include "saker/segmentation/ground_height.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

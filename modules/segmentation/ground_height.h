@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "segmentation/beam_spacing.h"
-#include "segmentation/range_image.h"
+#include "saker/segmentation/beam_spacing.h"
+#include "saker/segmentation/range_image.h"
 
 namespace saker::segmentation {
 

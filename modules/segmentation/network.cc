@@ -1,4 +1,4 @@
-#include "segmentation/network.h"
+#include "saker/segmentation/network.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::segmentation {
 namespace {

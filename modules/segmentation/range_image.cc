@@ -1,11 +1,11 @@
-#include "segmentation/range_image.h"
+#include "saker/segmentation/range_image.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "lidar/rings.h"
+#include "saker/lidar/rings.h"
 
 namespace saker::segmentation {
 namespace {

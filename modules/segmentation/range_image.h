@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lidar/rings.h"
-#include "lidar/scan.h"
+#include "saker/lidar/rings.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::segmentation {
 

@@ -1,12 +1,12 @@
-#include "segmentation/segmentation.h"
+#include "saker/segmentation/segmentation.h"
 
 #include <fstream>
 #include <iterator>
 #include <vector>
 
-#include "core/config_folder.h"
-#include "core/error.h"
-#include "segmentation/sidecar.h"
+#include "saker/core/config_folder.h"
+#include "saker/core/error.h"
+#include "saker/segmentation/sidecar.h"
 
 namespace saker::segmentation {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "core/config.h"
-#include "lidar/scan.h"
-#include "objects/class_table.h"
-#include "segmentation/back_projection.h"
-#include "segmentation/features.h"
-#include "segmentation/network.h"
-#include "segmentation/range_image.h"
+#include "saker/core/config.h"
+#include "saker/lidar/scan.h"
+#include "saker/objects/class_table.h"
+#include "saker/segmentation/back_projection.h"
+#include "saker/segmentation/features.h"
+#include "saker/segmentation/network.h"
+#include "saker/segmentation/range_image.h"
 
 namespace saker::segmentation {
 

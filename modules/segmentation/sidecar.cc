@@ -1,12 +1,12 @@
-#include "segmentation/sidecar.h"
+#include "saker/segmentation/sidecar.h"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/sha256.h"
-#include "segmentation/features.h"
+#include "saker/core/error.h"
+#include "saker/core/sha256.h"
+#include "saker/segmentation/features.h"
 
 namespace saker::segmentation {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
+#include "saker/objects/class_table.h"
 
 namespace saker::segmentation {
 

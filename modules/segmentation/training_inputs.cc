@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "segmentation/features.h"
-#include "segmentation/range_image.h"
+#include "saker/segmentation/features.h"
+#include "saker/segmentation/range_image.h"
 
 using saker::segmentation::Features;
 using saker::segmentation::RangeImage;

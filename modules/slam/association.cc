@@ -1,4 +1,4 @@
-#include "slam/association.h"
+#include "saker/slam/association.h"
 
 #include <algorithm>
 #include <limits>

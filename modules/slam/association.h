@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slam/landmark.h"
+#include "saker/slam/landmark.h"
 
 /// Nearest-neighbour association with fixed thresholds (the paper, section III-B.2).
 namespace saker::slam {

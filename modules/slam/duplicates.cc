@@ -1,4 +1,4 @@
-#include "slam/duplicates.h"
+#include "saker/slam/duplicates.h"
 
 #include <algorithm>
 #include <cmath>

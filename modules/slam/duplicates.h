@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "slam/association.h"
+#include "saker/slam/association.h"
 
 namespace saker::slam {
 

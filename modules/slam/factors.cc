@@ -1,4 +1,4 @@
-#include "slam/factors.h"
+#include "saker/slam/factors.h"
 
 #include <Eigen/Cholesky>
 

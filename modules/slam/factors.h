@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "slam/hidden_ends.h"
-#include "slam/manifolds.h"
+#include "saker/slam/hidden_ends.h"
+#include "saker/slam/manifolds.h"
 
 /// The paper's factors with analytic Jacobians, each residual whitened by its measurement's
 /// covariance: ½ |W e|² with Wᵀ W = Σ⁻¹.

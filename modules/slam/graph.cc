@@ -1,4 +1,4 @@
-#include "slam/graph.h"
+#include "saker/slam/graph.h"
 
 #include <ceres/covariance.h>
 #include <ceres/loss_function.h>
@@ -10,8 +10,8 @@
 #include <cmath>
 #include <memory>
 
-#include "slam/factors.h"
-#include "slam/landmark_estimate.h"
+#include "saker/slam/factors.h"
+#include "saker/slam/landmark_estimate.h"
 
 namespace saker::slam {
 namespace {

@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "core/budget.h"
-#include "slam/graph_config.h"
-#include "slam/landmark.h"
-#include "slam/trajectory.h"
+#include "saker/core/budget.h"
+#include "saker/slam/graph_config.h"
+#include "saker/slam/landmark.h"
+#include "saker/slam/trajectory.h"
 
 namespace saker::slam {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/config.h"
-#include "slam/hidden_ends.h"
-#include "slam/landmark.h"
+#include "saker/core/config.h"
+#include "saker/slam/hidden_ends.h"
+#include "saker/slam/landmark.h"
 
 namespace saker::slam {
 

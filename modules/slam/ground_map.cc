@@ -1,4 +1,4 @@
-#include "slam/ground_map.h"
+#include "saker/slam/ground_map.h"
 
 #include <algorithm>
 #include <cmath>

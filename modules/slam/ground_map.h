@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/config.h"
-#include "objects/models.h"
-#include "slam/trajectory.h"
+#include "saker/core/config.h"
+#include "saker/objects/models.h"
+#include "saker/slam/trajectory.h"
 
 namespace saker::slam {
 

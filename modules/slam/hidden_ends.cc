@@ -1,9 +1,9 @@
-#include "slam/hidden_ends.h"
+#include "saker/slam/hidden_ends.h"
 
 #include <cmath>
 
-#include "objects/stated_length.h"
-#include "slam/model_algebra.h"
+#include "saker/objects/stated_length.h"
+#include "saker/slam/model_algebra.h"
 
 namespace saker::slam {
 namespace {

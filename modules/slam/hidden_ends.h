@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/se3.h"
-#include "objects/models.h"
+#include "saker/core/se3.h"
+#include "saker/objects/models.h"
 
 namespace saker::slam {
 

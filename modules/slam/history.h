@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/se3.h"
-#include "core/time.h"
-#include "objects/measurement.h"
+#include "saker/core/se3.h"
+#include "saker/core/time.h"
+#include "saker/objects/measurement.h"
 
 namespace saker::slam {
 

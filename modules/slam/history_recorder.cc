@@ -1,10 +1,10 @@
-#include "slam/history_recorder.h"
+#include "saker/slam/history_recorder.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "objects/stated_length.h"
+#include "saker/objects/stated_length.h"
 
 namespace saker::slam {
 namespace {

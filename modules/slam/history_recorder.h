@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "slam/history.h"
-#include "slam/landmark.h"
+#include "saker/slam/history.h"
+#include "saker/slam/landmark.h"
 
 namespace saker::slam {
 

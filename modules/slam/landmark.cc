@@ -1,4 +1,4 @@
-#include "slam/landmark.h"
+#include "saker/slam/landmark.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "objects/stated_length.h"
+#include "saker/objects/stated_length.h"
 
 namespace saker::slam {
 namespace {

@@ -4,12 +4,12 @@
 #include <limits>
 #include <vector>
 
-#include "core/config.h"
-#include "core/time.h"
-#include "objects/measurement.h"
-#include "objects/object_map.h"
-#include "slam/model_algebra.h"
-#include "slam/trajectory.h"
+#include "saker/core/config.h"
+#include "saker/core/time.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_map.h"
+#include "saker/slam/model_algebra.h"
+#include "saker/slam/trajectory.h"
 
 namespace saker::slam {
 

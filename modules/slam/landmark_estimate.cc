@@ -1,4 +1,4 @@
-#include "slam/landmark_estimate.h"
+#include "saker/slam/landmark_estimate.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "objects/view_cell.h"
-#include "slam/manifolds.h"
+#include "saker/objects/view_cell.h"
+#include "saker/slam/manifolds.h"
 
 namespace saker::slam {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "slam/graph_config.h"
-#include "slam/landmark.h"
-#include "slam/trajectory.h"
+#include "saker/slam/graph_config.h"
+#include "saker/slam/landmark.h"
+#include "saker/slam/trajectory.h"
 
 /// What one landmark's own observations say of it, with the poses held.
 namespace saker::slam {

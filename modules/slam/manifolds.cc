@@ -1,4 +1,4 @@
-#include "slam/manifolds.h"
+#include "saker/slam/manifolds.h"
 
 #include <cmath>
 

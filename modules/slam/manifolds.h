@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "core/se3.h"
-#include "objects/models.h"
+#include "saker/core/se3.h"
+#include "saker/objects/models.h"
 
 /// The graph's variables as Ceres sees them, and how they are perturbed.
 ///

@@ -1,4 +1,4 @@
-#include "slam/measurement_noise.h"
+#include "saker/slam/measurement_noise.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/config.h"
-#include "slam/model_algebra.h"
+#include "saker/core/config.h"
+#include "saker/slam/model_algebra.h"
 
 namespace saker::slam {
 

@@ -1,4 +1,4 @@
-#include "slam/model_algebra.h"
+#include "saker/slam/model_algebra.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "slam/manifolds.h"
+#include "saker/slam/manifolds.h"
 
 namespace saker::slam {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "objects/models.h"
+#include "saker/objects/models.h"
 
 /// Sums, differences and turns of object models in the tangents of DESIGN section 3.
 namespace saker::slam {

@@ -1,4 +1,4 @@
-#include "slam/sight.h"
+#include "saker/slam/sight.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "objects/models.h"
-#include "slam/landmark.h"
+#include "saker/objects/models.h"
+#include "saker/slam/landmark.h"
 
 namespace saker::slam {
 

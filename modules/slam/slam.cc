@@ -1,10 +1,10 @@
-#include "slam/slam.h"
+#include "saker/slam/slam.h"
 
 #include <algorithm>
 
-#include "objects/stated_length.h"
-#include "slam/landmark_estimate.h"
-#include "slam/sight.h"
+#include "saker/objects/stated_length.h"
+#include "saker/slam/landmark_estimate.h"
+#include "saker/slam/sight.h"
 
 namespace saker::slam {
 namespace {

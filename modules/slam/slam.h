@@ -7,18 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "core/budget.h"
-#include "objects/measurement.h"
-#include "objects/object_map.h"
-#include "slam/association.h"
-#include "slam/duplicates.h"
-#include "slam/graph.h"
-#include "slam/ground_map.h"
-#include "slam/history_recorder.h"
-#include "slam/landmark.h"
-#include "slam/measurement_noise.h"
-#include "slam/merge_config.h"
-#include "slam/trajectory.h"
+#include "saker/core/budget.h"
+#include "saker/objects/measurement.h"
+#include "saker/objects/object_map.h"
+#include "saker/slam/association.h"
+#include "saker/slam/duplicates.h"
+#include "saker/slam/graph.h"
+#include "saker/slam/ground_map.h"
+#include "saker/slam/history_recorder.h"
+#include "saker/slam/landmark.h"
+#include "saker/slam/measurement_noise.h"
+#include "saker/slam/trajectory.h"
 
 namespace saker::slam {
 
@@ -37,7 +36,6 @@ struct SlamConfig {
   GraphConfig graph;
   GroundMapConfig ground;
   HistoryConfig history;
-  MergeConfig merge;
   NoiseSource measurement_noise = NoiseSource::fixed;
   MeasurementNoiseConfig noise;
 
@@ -50,7 +48,6 @@ struct SlamConfig {
     v.group("graph", graph, "the optimisation");
     v.group("ground", ground, "the map's local ground planes");
     v.group("history", history, "what other robots are told");
-    v.group("merge", merge, "several robots in one graph");
     v.field("measurement_noise", measurement_noise, "",
             "of measurements: fitted to flights (uncertainty.model), by where they are taken from, "
             "or fixed: what detection says");

@@ -1,4 +1,4 @@
-#include "slam/trajectory.h"
+#include "saker/slam/trajectory.h"
 
 #include <algorithm>
 #include <numbers>

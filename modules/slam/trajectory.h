@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
-#include "core/se3.h"
-#include "core/time.h"
+#include "saker/core/config.h"
+#include "saker/core/se3.h"
+#include "saker/core/time.h"
 
 namespace saker::slam {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
-#include "uncertainty/geometric.h"
-#include "uncertainty/semantic.h"
+#include "saker/objects/class_table.h"
+#include "saker/uncertainty/geometric.h"
+#include "saker/uncertainty/semantic.h"
 
 namespace saker::uncertainty {
 

@@ -1,4 +1,4 @@
-#include "uncertainty/covariate.h"
+#include "saker/uncertainty/covariate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "uncertainty/view.h"
+#include "saker/uncertainty/view.h"
 
 namespace saker::uncertainty {
 

@@ -1,4 +1,4 @@
-#include "uncertainty/evaluation.h"
+#include "saker/uncertainty/evaluation.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::uncertainty {
 namespace {

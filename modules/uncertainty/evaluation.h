@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "uncertainty/sample.h"
-#include "uncertainty/uncertainty.h"
+#include "saker/uncertainty/sample.h"
+#include "saker/uncertainty/uncertainty.h"
 
 namespace saker::uncertainty {
 

@@ -1,11 +1,11 @@
-#include "uncertainty/fit.h"
+#include "saker/uncertainty/fit.h"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <set>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::uncertainty {
 namespace {

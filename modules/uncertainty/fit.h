@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "uncertainty/class_model.h"
-#include "uncertainty/random_effects.h"
-#include "uncertainty/sample.h"
+#include "saker/uncertainty/class_model.h"
+#include "saker/uncertainty/random_effects.h"
+#include "saker/uncertainty/sample.h"
 
 /// From measurements beside the truth to models: the paper, "Uncertainty modeling".
 ///

@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.h"
-#include "core/statistics.h"
-#include "uncertainty/fit.h"
-#include "uncertainty/held_out.h"
+#include "saker/core/error.h"
+#include "saker/core/statistics.h"
+#include "saker/uncertainty/fit.h"
+#include "saker/uncertainty/held_out.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <map>
 
-#include "core/statistics.h"
-#include "uncertainty/fit.h"
-#include "uncertainty/held_out.h"
+#include "saker/core/statistics.h"
+#include "saker/uncertainty/fit.h"
+#include "saker/uncertainty/held_out.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -1,4 +1,4 @@
-#include "uncertainty/geometric.h"
+#include "saker/uncertainty/geometric.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "uncertainty/covariate.h"
-#include "uncertainty/spline.h"
+#include "saker/uncertainty/covariate.h"
+#include "saker/uncertainty/spline.h"
 
 namespace saker::uncertainty {
 

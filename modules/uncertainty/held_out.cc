@@ -1,9 +1,9 @@
-#include "uncertainty/held_out.h"
+#include "saker/uncertainty/held_out.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::uncertainty {
 

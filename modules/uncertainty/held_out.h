@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "uncertainty/class_model.h"
+#include "saker/uncertainty/class_model.h"
 
 namespace saker::uncertainty {
 

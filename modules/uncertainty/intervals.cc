@@ -1,4 +1,4 @@
-#include "uncertainty/intervals.h"
+#include "saker/uncertainty/intervals.h"
 
 #include <algorithm>
 #include <cmath>

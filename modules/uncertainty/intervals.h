@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "uncertainty/view.h"
+#include "saker/uncertainty/view.h"
 
 namespace saker::uncertainty {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
-#include "uncertainty/covariate.h"
+#include "saker/objects/class_table.h"
+#include "saker/uncertainty/covariate.h"
 
 /// A model file's keys, as plain values (core/config.h): matrices are lists of their rows in order.
 namespace saker::uncertainty {

@@ -1,4 +1,4 @@
-#include "uncertainty/model_file.h"
+#include "saker/uncertainty/model_file.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "core/config_io.h"
-#include "core/error.h"
-#include "core/sha256.h"
-#include "uncertainty/model_document.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+#include "saker/core/sha256.h"
+#include "saker/uncertainty/model_document.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "objects/class_table.h"
-#include "uncertainty/uncertainty.h"
+#include "saker/objects/class_table.h"
+#include "saker/uncertainty/uncertainty.h"
 
 /// Model files: YAML with a comment on every key, under a line with the SHA-256 of all that follows
 /// it, so that a file that was cut or edited is refused. Errors are one line: file, key, what was

@@ -1,4 +1,4 @@
-#include "uncertainty/perceptron.h"
+#include "saker/uncertainty/perceptron.h"
 
 #include <cmath>
 #include <numeric>

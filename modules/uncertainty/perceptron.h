@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/config.h"
-#include "core/rng.h"
+#include "saker/core/config.h"
+#include "saker/core/rng.h"
 
 namespace saker::uncertainty {
 

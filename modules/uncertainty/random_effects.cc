@@ -1,4 +1,4 @@
-#include "uncertainty/random_effects.h"
+#include "saker/uncertainty/random_effects.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

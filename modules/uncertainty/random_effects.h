@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/config.h"
+#include "saker/core/config.h"
 
 namespace saker::uncertainty {
 

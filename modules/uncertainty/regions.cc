@@ -1,4 +1,4 @@
-#include "uncertainty/regions.h"
+#include "saker/uncertainty/regions.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/error.h"
-#include "core/rng.h"
-#include "core/statistics.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
+#include "saker/core/statistics.h"
 
 namespace saker::uncertainty {
 namespace {

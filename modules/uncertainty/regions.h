@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "core/config.h"
-#include "uncertainty/uncertainty.h"
+#include "saker/core/config.h"
+#include "saker/uncertainty/uncertainty.h"
 
 namespace saker::uncertainty {
 

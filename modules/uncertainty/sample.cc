@@ -1,4 +1,4 @@
-#include "uncertainty/sample.h"
+#include "saker/uncertainty/sample.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "objects/stated_length.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/objects/stated_length.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
-#include "objects/measurement.h"
-#include "uncertainty/view.h"
+#include "saker/objects/class_table.h"
+#include "saker/objects/measurement.h"
+#include "saker/uncertainty/view.h"
 
 namespace saker::uncertainty {
 

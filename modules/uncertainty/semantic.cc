@@ -1,4 +1,4 @@
-#include "uncertainty/semantic.h"
+#include "saker/uncertainty/semantic.h"
 
 #include <cmath>
 

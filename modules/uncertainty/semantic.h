@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "uncertainty/covariate.h"
-#include "uncertainty/perceptron.h"
+#include "saker/uncertainty/covariate.h"
+#include "saker/uncertainty/perceptron.h"
 
 namespace saker::uncertainty {
 

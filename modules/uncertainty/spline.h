@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "uncertainty/intervals.h"
+#include "saker/uncertainty/intervals.h"
 
 namespace saker::uncertainty {
 

@@ -1,9 +1,9 @@
-#include "uncertainty/uncertainty.h"
+#include "saker/uncertainty/uncertainty.h"
 
 #include <utility>
 
-#include "core/files.h"
-#include "uncertainty/model_file.h"
+#include "saker/core/files.h"
+#include "saker/uncertainty/model_file.h"
 
 namespace saker::uncertainty {
 

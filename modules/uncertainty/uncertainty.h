@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "objects/class_table.h"
-#include "uncertainty/class_model.h"
-#include "uncertainty/view.h"
+#include "saker/objects/class_table.h"
+#include "saker/uncertainty/class_model.h"
+#include "saker/uncertainty/view.h"
 
 /// What a measurement of an object is worth, by where it is seen from — reads a model file that
 /// `saker characterise fit` made from flights; makes the confidence of its class, the bias and the

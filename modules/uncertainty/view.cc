@@ -1,4 +1,4 @@
-#include "uncertainty/view.h"
+#include "saker/uncertainty/view.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,11 +1,11 @@
-#include "active/belief.h"
+#include "saker/active/belief.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

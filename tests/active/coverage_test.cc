@@ -1,14 +1,14 @@
-#include "active/coverage.h"
+#include "saker/active/coverage.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <numbers>
 
-#include "active/column.h"
-#include "core/error.h"
 #include "made_fence.h"
 #include "made_street.h"
+#include "saker/active/column.h"
+#include "saker/core/error.h"
 
 namespace saker::active {
 namespace {

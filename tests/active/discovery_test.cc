@@ -1,14 +1,14 @@
-#include "active/discovery.h"
+#include "saker/active/discovery.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "core/error.h"
-#include "core/rng.h"
 #include "made_fence.h"
 #include "made_flight.h"
 #include "made_street.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

@@ -1,4 +1,4 @@
-#include "active/faces.h"
+#include "saker/active/faces.h"
 
 #include <gtest/gtest.h>
 

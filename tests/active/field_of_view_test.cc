@@ -1,11 +1,11 @@
-#include "active/field_of_view.h"
+#include "saker/active/field_of_view.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/rng.h"
 #include "made_street.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

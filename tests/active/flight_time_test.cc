@@ -1,11 +1,11 @@
-#include "active/flight_time.h"
+#include "saker/active/flight_time.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/geofence.h"
+#include "saker/motion/geofence.h"
 
 /// Geofences of all shapes for tests.
 namespace saker::active::made {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "active/active.h"
 #include "made_street.h"
+#include "saker/active/active.h"
 
 namespace saker::active::made {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "active/pams.h"
 #include "made_flight.h"
 #include "made_model.h"
+#include "saker/active/pams.h"
 
 namespace saker::active::made {
 

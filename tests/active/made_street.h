@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "objects/object_map.h"
-#include "occupancy/grid.h"
+#include "saker/objects/object_map.h"
+#include "saker/occupancy/grid.h"
 
 /// A made street for tests: cars as boxes, walls, and the occupancy block around them.
 namespace saker::active::made {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "active/pams.h"
 #include "made_flight.h"
 #include "made_model.h"
+#include "saker/active/pams.h"
 
 namespace saker::active {
 namespace {

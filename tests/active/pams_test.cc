@@ -1,4 +1,4 @@
-#include "active/pams.h"
+#include "saker/active/pams.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <set>
 
-#include "core/rng.h"
 #include "made_flight.h"
 #include "made_model.h"
 #include "made_pams_flight.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

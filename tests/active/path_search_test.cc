@@ -1,4 +1,4 @@
-#include "active/path_search.h"
+#include "saker/active/path_search.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "active/active.h"
-#include "core/error.h"
 #include "made_flight.h"
+#include "saker/active/active.h"
+#include "saker/core/error.h"
 
 /// What `make_policy` refuses.
 namespace saker::active {

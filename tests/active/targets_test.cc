@@ -1,11 +1,11 @@
-#include "active/targets.h"
+#include "saker/active/targets.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "core/error.h"
 #include "made_street.h"
+#include "saker/core/error.h"
 
 namespace saker::active {
 namespace {

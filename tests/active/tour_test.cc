@@ -1,4 +1,4 @@
-#include "active/tour.h"
+#include "saker/active/tour.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 #include "tsplib.h"
 
 namespace saker::active {

@@ -1,4 +1,4 @@
-#include "active/view_model.h"
+#include "saker/active/view_model.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "active/visit.h"
+#include "saker/active/visit.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <set>
 
-#include "core/rng.h"
 #include "made_flight.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

@@ -1,4 +1,4 @@
-#include "autonomy/body_pose.h"
+#include "saker/autonomy/body_pose.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <deque>
 #include <numbers>
 
-#include "core/error.h"
-#include "core/rng.h"
-#include "lidar/mount.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
+#include "saker/lidar/mount.h"
 
 namespace saker::autonomy {
 namespace {

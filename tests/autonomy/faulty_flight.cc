@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lidar/imu_packet.h"
+#include "saker/lidar/imu_packet.h"
 
 namespace saker::autonomy {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "autonomy/local_checker.h"
-#include "autonomy/mission_lockstep.h"
-#include "plant/simulated_plant.h"
+#include "saker/autonomy/local_checker.h"
+#include "saker/autonomy/mission_lockstep.h"
+#include "tools/plant/simulated_plant.h"
 
 namespace saker::autonomy {
 

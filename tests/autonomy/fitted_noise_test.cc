@@ -1,15 +1,15 @@
-#include "autonomy/fitted_noise.h"
+#include "saker/autonomy/fitted_noise.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "autonomy/lockstep.h"
-#include "core/error.h"
 #include "made_model.h"
-#include "objects/view_cell.h"
-#include "slam/model_algebra.h"
-#include "uncertainty/fit.h"
+#include "saker/autonomy/lockstep.h"
+#include "saker/core/error.h"
+#include "saker/objects/view_cell.h"
+#include "saker/slam/model_algebra.h"
+#include "saker/uncertainty/fit.h"
 
 namespace saker::autonomy {
 namespace {

@@ -3,10 +3,10 @@
 #include <map>
 #include <numbers>
 
-#include "autonomy/fitted_noise.h"
-#include "core/rng.h"
-#include "core/statistics.h"
 #include "made_model.h"
+#include "saker/autonomy/fitted_noise.h"
+#include "saker/core/rng.h"
+#include "saker/core/statistics.h"
 
 /// A map whose measurements err as the fitted model says knows how good it is.
 namespace saker::autonomy {

@@ -1,4 +1,4 @@
-#include "autonomy/incomplete_targets.h"
+#include "saker/autonomy/incomplete_targets.h"
 
 #include <gtest/gtest.h>
 

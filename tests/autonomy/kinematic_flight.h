@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "autonomy/planning.h"
-#include "autonomy/supervisor.h"
+#include "saker/autonomy/planning.h"
+#include "saker/autonomy/supervisor.h"
 
 namespace saker::autonomy {
 

@@ -1,12 +1,12 @@
-#include "autonomy/lockstep.h"
+#include "saker/autonomy/lockstep.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 #include "made_flight.h"
-#include "objects/comparison.h"
-#include "objects/map_io.h"
+#include "saker/objects/comparison.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::autonomy {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "simulation/flight.h"
+#include "saker/simulation/mission/flight.h"
 
 namespace saker::autonomy {
 

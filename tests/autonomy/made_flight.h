@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "lidar/recording.h"
+#include "saker/lidar/recording.h"
 
 namespace saker::autonomy {
 

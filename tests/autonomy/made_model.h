@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "uncertainty/uncertainty.h"
+#include "saker/uncertainty/uncertainty.h"
 
 /// A fitted model of vehicles and trunks with made numbers, for tests.
 namespace saker::autonomy::made {

@@ -1,11 +1,11 @@
-#include "autonomy/mission_lockstep.h"
+#include "saker/autonomy/mission_lockstep.h"
 
 #include <gtest/gtest.h>
 
-#include "autonomy/local_checker.h"
-#include "core/error.h"
-#include "objects/map_io.h"
-#include "plant/simulated_plant.h"
+#include "saker/autonomy/local_checker.h"
+#include "saker/core/error.h"
+#include "saker/objects/map_io.h"
+#include "tools/plant/simulated_plant.h"
 
 namespace saker::autonomy {
 namespace {

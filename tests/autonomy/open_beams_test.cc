@@ -1,4 +1,4 @@
-#include "autonomy/open_beams.h"
+#include "saker/autonomy/open_beams.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "autonomy/pipeline.h"
+#include "saker/autonomy/pipeline.h"
 
 #include <gtest/gtest.h>
 
-#include "autonomy/delayed.h"
-#include "core/error.h"
+#include "saker/autonomy/delayed.h"
+#include "saker/core/error.h"
 
 namespace saker::autonomy {
 namespace {

@@ -1,11 +1,11 @@
-#include "autonomy/planning.h"
+#include "saker/autonomy/planning.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
 #include "kinematic_flight.h"
+#include "saker/core/error.h"
 
 namespace saker::autonomy {
 namespace {

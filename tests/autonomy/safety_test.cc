@@ -1,4 +1,4 @@
-#include "autonomy/safety.h"
+#include "saker/autonomy/safety.h"
 
 #include <gtest/gtest.h>
 

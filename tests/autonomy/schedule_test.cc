@@ -1,4 +1,4 @@
-#include "autonomy/schedule.h"
+#include "saker/autonomy/schedule.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "autonomy/standstill.h"
+#include "saker/autonomy/standstill.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::autonomy {
 namespace {

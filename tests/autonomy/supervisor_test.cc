@@ -1,4 +1,4 @@
-#include "autonomy/supervisor.h"
+#include "saker/autonomy/supervisor.h"
 
 #include <gtest/gtest.h>
 

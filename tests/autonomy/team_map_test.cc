@@ -1,4 +1,4 @@
-#include "autonomy/team_map.h"
+#include "saker/autonomy/team_map.h"
 
 #include <gtest/gtest.h>
 

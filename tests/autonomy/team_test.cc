@@ -1,11 +1,11 @@
-#include "autonomy/team.h"
+#include "saker/autonomy/team.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
-#include "core/rng.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::autonomy {
 namespace {
@@ -84,7 +84,7 @@ TeamConfig at(std::vector<double> position_m, double yaw_deg = 0) {
 }
 
 TEST(Team, WhatAnotherMappedWellNeedsNoVisitAndIsWhereItTrulyIs) {
-  Team team(at({30, 4, 0}, 90), kSlam, kTable);
+  Team team(at({30, 4, 0}, 90), {}, kSlam, kTable);
   const SE3 T_base_world = pose(30, 4, std::numbers::pi / 2);
   const std::vector cars = {car(5, 6), car(15, -6), car(25, 6)};
   team.add(std::vector{flown("R2", pose(1, 2, 0.1), {{cars[0], kWell}, {cars[1], kWell}}, true)},
@@ -107,7 +107,7 @@ TEST(Team, WhatAnotherMappedWellNeedsNoVisitAndIsWhereItTrulyIs) {
 }
 
 TEST(Team, WhatAnotherMappedBadlyIsAmongTheTargetsThoughNobodySaidSo) {
-  Team team(at({0, 0, 0}), kSlam, kTable);
+  Team team(at({0, 0, 0}), {}, kSlam, kTable);
   team.add(std::vector{flown("R2", pose(1, 2, 0), {{car(5, 6), kBadly}}, true)}, kPlenty);
   const TeamPrior told = team.prior({}, kTargets);
   EXPECT_EQ(told.prior.objects.size(), 1U);
@@ -118,7 +118,7 @@ TEST(Team, WhatAnotherMappedBadlyIsAmongTheTargetsThoughNobodySaidSo) {
 TEST(Team, OutsideItsLotARobotLeavesTheRestToOthers) {
   TeamConfig config = at({0, 0, 0});
   config.lot_m = {0, -9, 10, -9, 10, 9, 0, 9};
-  Team team(config, kSlam, kTable);
+  Team team(config, {}, kSlam, kTable);
   team.add(
       std::vector{flown("R2", pose(1, 2, 0), {{car(5, 6), kBadly}, {car(15, 6), kBadly}}, true)},
       kPlenty);
@@ -126,7 +126,7 @@ TEST(Team, OutsideItsLotARobotLeavesTheRestToOthers) {
 }
 
 TEST(Team, AFlightThatBeganNobodyKnowsWhereIsLeftOutAndNamed) {
-  Team team(at({0, 0, 0}), kSlam, kTable);
+  Team team(at({0, 0, 0}), {}, kSlam, kTable);
   team.add(std::vector{flown("R3", pose(1, 2, 0), {{car(5, 6), kWell}}, false)}, kPlenty);
   ASSERT_EQ(team.told().size(), 1U);
   EXPECT_EQ(team.text(), "R3 flight 1 (0 of 20 keyframes: nobody knows where it took off)");
@@ -134,7 +134,7 @@ TEST(Team, AFlightThatBeganNobodyKnowsWhereIsLeftOutAndNamed) {
 }
 
 TEST(Team, WithoutASurveyOfItsOwnARobotMergesWhenItHasFlown) {
-  Team team({}, kSlam, kTable);
+  Team team({}, {}, kSlam, kTable);
   std::vector<Seen> cars;  // as many as make a place unmistakable
   core::Rng rng(1);
   for (int i = 0; i < 20; ++i)
@@ -150,7 +150,7 @@ TEST(Team, WithoutASurveyOfItsOwnARobotMergesWhenItHasFlown) {
 }
 
 TEST(Team, WhatDoesNotFitIntoTheTimeIsLeftOutAndTakenLater) {
-  Team team(at({0, 0, 0}), kSlam, kTable);
+  Team team(at({0, 0, 0}), {}, kSlam, kTable);
   const std::vector told = {flown("R2", pose(1, 2, 0), {{car(5, 6), kWell}}, true)};
   team.add(told, core::Budget::until(core::Budget::Clock::now(), kMergeIterations));
   EXPECT_EQ(team.text(), "R2 flight 1 (0 of 20 keyframes: no time was left)");
@@ -158,7 +158,9 @@ TEST(Team, WhatDoesNotFitIntoTheTimeIsLeftOutAndTakenLater) {
   EXPECT_EQ(team.text(), "R2 flight 1 (20 of 20 keyframes)");
 }
 
-TEST(Team, RefusesATakeOffThatIsNoPoint) { EXPECT_THROW(Team(at({1, 2}), kSlam, kTable), Error); }
+TEST(Team, RefusesATakeOffThatIsNoPoint) {
+  EXPECT_THROW(Team(at({1, 2}), {}, kSlam, kTable), Error);
+}
 
 }  // namespace
 }  // namespace saker::autonomy

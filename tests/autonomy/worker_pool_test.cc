@@ -1,4 +1,4 @@
-#include "autonomy/worker_pool.h"
+#include "saker/autonomy/worker_pool.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include "../active/made_flight.h"
 #include "../active/made_model.h"
 #include "../active/tsplib.h"
-#include "active/pams.h"
 #include "benchmark/benchmark.h"
-#include "core/rng.h"
+#include "saker/active/pams.h"
+#include "saker/core/rng.h"
 
 namespace saker::active {
 namespace {

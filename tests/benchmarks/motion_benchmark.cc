@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "../motion/made_world.h"
-#include "core/statistics.h"
-#include "motion/destination.h"
-#include "motion/free_space.h"
-#include "motion/search.h"
+#include "saker/core/statistics.h"
+#include "saker/motion/destination.h"
+#include "saker/motion/free_space.h"
+#include "saker/motion/search.h"
 
 namespace saker::motion {
 namespace {

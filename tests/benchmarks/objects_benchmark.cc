@@ -12,7 +12,7 @@
 
 #include "../objects/made_map.h"
 #include "../objects/map_error.h"
-#include "objects/map_io.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::objects {
 namespace {

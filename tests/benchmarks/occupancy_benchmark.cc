@@ -7,8 +7,8 @@
 
 #include "../occupancy/made_scan.h"
 #include "../occupancy/stock.h"
-#include "core/statistics.h"
-#include "occupancy/distance_field.h"
+#include "saker/core/statistics.h"
+#include "saker/occupancy/distance_field.h"
 
 namespace saker::occupancy {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "segmentation/segmentation.h"
+#include "saker/segmentation/segmentation.h"
 
 namespace saker::segmentation {
 namespace {

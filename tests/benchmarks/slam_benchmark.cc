@@ -5,12 +5,14 @@
 #include <ctime>
 #include <numbers>
 
-#include "../slam/made_flights.h"
+#include "../multirobot/made_flights.h"
 
 namespace saker::slam {
 namespace {
 
 using namespace made;
+using multirobot::MergeReport;
+using multirobot::MultiRobotSlam;
 
 /// Rounds past 100 objects, a keyframe a metre, ten to fifteen objects in each window.
 class Flight {
@@ -88,7 +90,7 @@ void slam_second_history(benchmark::State& state) {
   for (auto _ : state) {
     const Flown first = fly(world, round, {}, ++seed, 15, 0),
                 second = fly(world, back(round), {}, ++seed, 15, 0);
-    MultiRobotSlam empty(honest_config(), {}), both(honest_config(), {});
+    MultiRobotSlam empty({}, honest_config(), {}), both({}, honest_config(), {});
     alone += take(second, empty).seconds;
     (void)take(first, both);
     const Taken taken = take(second, both);

@@ -1,12 +1,12 @@
-#include "core/config_folder.h"
+#include "saker/core/config_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <string>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::core {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/config_io.h"
+#include "saker/core/config_io.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::core {
 namespace {

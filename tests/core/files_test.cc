@@ -1,10 +1,10 @@
-#include "core/files.h"
+#include "saker/core/files.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/parallel.h"
+#include "saker/core/parallel.h"
 
 #include <gtest/gtest.h>
 

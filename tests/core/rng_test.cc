@@ -1,10 +1,10 @@
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "core/statistics.h"
+#include "saker/core/statistics.h"
 
 namespace saker::core {
 namespace {

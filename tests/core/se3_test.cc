@@ -1,10 +1,10 @@
-#include "core/se3.h"
+#include "saker/core/se3.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::core {
 namespace {

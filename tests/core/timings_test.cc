@@ -1,4 +1,4 @@
-#include "core/timings.h"
+#include "saker/core/timings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "detection/beams.h"
+#include "saker/detection/beams.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::detection {
 namespace {

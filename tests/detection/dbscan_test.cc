@@ -1,8 +1,8 @@
-#include "detection/dbscan.h"
+#include "saker/detection/dbscan.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::detection {
 namespace {

@@ -1,11 +1,11 @@
-#include "detection/detection.h"
+#include "saker/detection/detection.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/error.h"
 #include "made_scene.h"
+#include "saker/core/error.h"
 
 namespace saker::detection {
 namespace {

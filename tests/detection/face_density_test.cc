@@ -1,4 +1,4 @@
-#include "detection/face_density.h"
+#include "saker/detection/face_density.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "detection/ground.h"
+#include "saker/detection/ground.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::detection {
 namespace {

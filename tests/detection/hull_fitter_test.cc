@@ -1,4 +1,4 @@
-#include "detection/hull_fitter.h"
+#include "saker/detection/hull_fitter.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/rng.h"
-#include "detection/detection.h"
+#include "saker/core/rng.h"
+#include "saker/detection/detection.h"
 
 /// Clusters and scans of known truth.
 namespace saker::detection::testing {

@@ -1,4 +1,4 @@
-#include "detection/size_prior.h"
+#include "saker/detection/size_prior.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "detection/vehicle.h"
+#include "saker/detection/vehicle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "detection/window.h"
+#include "saker/detection/window.h"
 
 #include <gtest/gtest.h>
 

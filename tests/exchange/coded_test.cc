@@ -1,11 +1,11 @@
-#include "exchange/coded.h"
+#include "saker/exchange/coded.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::exchange {
 namespace {

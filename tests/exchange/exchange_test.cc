@@ -1,4 +1,4 @@
-#include "exchange/exchange.h"
+#include "saker/exchange/exchange.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "exchange/key.h"
+#include "saker/exchange/key.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 #include "two_ends.h"
 
 namespace saker::exchange {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "core/rng.h"
-#include "core/time.h"
+#include "saker/core/rng.h"
+#include "saker/core/time.h"
 
 namespace saker::exchange {
 

@@ -1,4 +1,4 @@
-#include "exchange/message.h"
+#include "saker/exchange/message.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "exchange/packed_history.h"
+#include "saker/exchange/packed_history.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "core/rng.h"
-#include "exchange/packed_covariance.h"
+#include "saker/core/rng.h"
+#include "saker/exchange/packed_covariance.h"
 
 namespace saker::exchange {
 namespace {

@@ -1,4 +1,4 @@
-#include "exchange/seal.h"
+#include "saker/exchange/seal.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -7,8 +7,8 @@
 #include <csignal>
 #include <set>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 #include "two_ends.h"
 
 namespace saker::exchange {

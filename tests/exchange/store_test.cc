@@ -1,9 +1,9 @@
-#include "exchange/store.h"
+#include "saker/exchange/store.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 #include "two_ends.h"
 
 namespace saker::exchange {

@@ -1,11 +1,11 @@
-#include "exchange/stream.h"
+#include "saker/exchange/stream.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
-#include "exchange/exchange.h"
-#include "exchange/journal_store.h"
-#include "exchange/packed_history.h"
+#include "saker/core/rng.h"
+#include "saker/exchange/exchange.h"
+#include "saker/exchange/journal_store.h"
+#include "saker/exchange/packed_history.h"
 
 namespace saker::exchange {
 namespace {

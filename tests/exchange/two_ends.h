@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "exchange/exchange.h"
-#include "exchange/journal_store.h"
 #include "lossy_link.h"
+#include "saker/exchange/exchange.h"
+#include "saker/exchange/journal_store.h"
 
 namespace saker::exchange {
 

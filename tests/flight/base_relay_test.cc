@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "base_station/relay.h"
-#include "core/error.h"
+#include "flight/base_station/relay.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base_station/sealed.h"
+#include "flight/base_station/sealed.h"
 
 namespace saker::flight {
 namespace {

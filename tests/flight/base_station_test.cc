@@ -1,4 +1,4 @@
-#include "base_station/base_station.h"
+#include "flight/base_station/base_station.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "base_station/sealed.h"
+#include "flight/base_station/sealed.h"
 
 namespace saker::flight {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base_station/store.h"
-#include "core/error.h"
-#include "core/rng.h"
+#include "flight/base_station/store.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::flight {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bus/chunk_joiner.h"
-#include "core/rng.h"
+#include "flight/bus/chunk_joiner.h"
+#include "saker/core/rng.h"
 
 namespace saker::flight {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "bus/bus.h"
-#include "bus/mailbox.h"
-#include "core/error.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/mailbox.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

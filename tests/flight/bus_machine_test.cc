@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "bus/machine.h"
-#include "bus/multicast.h"
-#include "core/error.h"
-#include "lidar/udp_receiver.h"
+#include "flight/bus/machine.h"
+#include "flight/bus/multicast.h"
+#include "saker/core/error.h"
+#include "saker/lidar/udp_receiver.h"
 
 namespace saker::flight {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "bus/mailbox.h"
+#include "flight/bus/mailbox.h"
 
 namespace saker::flight {
 namespace {

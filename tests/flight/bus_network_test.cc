@@ -4,12 +4,12 @@
 #include <cstdlib>
 #include <thread>
 
-#include "bus/machine.h"
-#include "bus/messages.h"
-#include "bus/occupancy_messages.h"
-#include "bus/presence.h"
-#include "bus/scan_messages.h"
-#include "core/error.h"
+#include "flight/bus/machine.h"
+#include "flight/bus/messages.h"
+#include "flight/bus/occupancy_messages.h"
+#include "flight/bus/presence.h"
+#include "flight/bus/scan_messages.h"
+#include "saker/core/error.h"
 
 // Real LCM over UDP. Runs by tests/flight/in_namespace.sh, which sets SAKER_NAMESPACE to whether
 // there is a route.

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "bus/priority.h"
+#include "flight/bus/priority.h"
 
 namespace saker::flight {
 namespace {

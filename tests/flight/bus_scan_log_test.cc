@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "bus/scan_log.h"
-#include "core/error.h"
-#include "core/files.h"
+#include "flight/bus/scan_log.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::flight {
 namespace {

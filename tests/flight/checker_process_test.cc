@@ -1,8 +1,8 @@
-#include "collision_checker/checker_process.h"
+#include "flight/collision_checker/checker_process.h"
 
 #include <gtest/gtest.h>
 
-#include "bus/occupancy_messages.h"
+#include "flight/bus/occupancy_messages.h"
 #include "made_hall.h"
 
 namespace saker::flight {

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "bus/bus.h"
-#include "bus/occupancy_messages.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/occupancy_messages.h"
 #include "made_hall.h"
 
 // The process itself, over real LCM. Runs by tests/flight/in_namespace.sh.

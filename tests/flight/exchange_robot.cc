@@ -6,12 +6,12 @@
 #include <fstream>
 #include <iostream>
 
-#include "base_station/sealed.h"
-#include "bus/bus.h"
-#include "core/files.h"
-#include "core/rng.h"
-#include "exchange/exchange.h"
-#include "exchange/journal_store.h"
+#include "flight/base_station/sealed.h"
+#include "flight/bus/bus.h"
+#include "saker/core/files.h"
+#include "saker/core/rng.h"
+#include "saker/exchange/exchange.h"
+#include "saker/exchange/journal_store.h"
 
 /// A robot's end of the exchange as a process: what the executive does, without flying, on a
 /// network that loses and repeats messages and hands them over in another order.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "executive/shared_clock.h"
+#include "flight/executive/shared_clock.h"
 
 namespace saker::flight {
 namespace {

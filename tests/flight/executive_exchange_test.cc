@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "bus/exchange_messages.h"
-#include "core/error.h"
-#include "core/files.h"
-#include "executive/robot_exchange.h"
+#include "flight/bus/exchange_messages.h"
+#include "flight/executive/robot_exchange.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::flight {
 namespace {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "executive/loop.h"
+#include "flight/executive/loop.h"
 
 namespace saker::flight {
 namespace {

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "base_station/sealed.h"
-#include "bus/bus.h"
+#include "flight/base_station/sealed.h"
+#include "flight/bus/bus.h"
 
 /// Says and hears raw messages on an LCM network, for tests by processes.
 ///   lcm_probe say URL CHANNEL HEX COUNT RATE_HZ     COUNT messages: HEX and a number of 4 bytes

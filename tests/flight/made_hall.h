@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "../occupancy/made_scan.h"
-#include "bus/messages.h"
-#include "bus/scan_messages.h"
+#include "flight/bus/messages.h"
+#include "flight/bus/scan_messages.h"
 
 /// A hall that a vehicle hovers in, as messages: every beam comes back.
 namespace saker::made {

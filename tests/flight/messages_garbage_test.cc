@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "bus/messages.h"
-#include "bus/object_messages.h"
-#include "bus/occupancy_messages.h"
-#include "bus/scan_messages.h"
-#include "core/rng.h"
+#include "flight/bus/messages.h"
+#include "flight/bus/object_messages.h"
+#include "flight/bus/occupancy_messages.h"
+#include "flight/bus/scan_messages.h"
+#include "saker/core/rng.h"
 
 // What a network can hand over under the right fingerprint: cut messages and any bytes behind it.
 namespace saker::flight {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "bus/object_messages.h"
+#include "flight/bus/object_messages.h"
 
 namespace saker::flight {
 namespace {

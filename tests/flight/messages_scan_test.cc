@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bus/scan_messages.h"
-#include "core/rng.h"
+#include "flight/bus/scan_messages.h"
+#include "saker/core/rng.h"
 
 namespace saker::flight {
 namespace {

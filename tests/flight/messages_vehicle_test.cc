@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "bus/messages.h"
+#include "flight/bus/messages.h"
 
 namespace saker::flight {
 namespace {

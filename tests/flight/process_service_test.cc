@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/error.h"
-#include "process/service.h"
+#include "flight/process/service.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {

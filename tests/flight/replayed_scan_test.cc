@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "autonomy/pipeline.h"
-#include "bus/scan_log.h"
-#include "segmentation/segmentation.h"
-#include "simulation/simulated_vehicle.h"
+#include "flight/bus/scan_log.h"
+#include "saker/autonomy/pipeline.h"
+#include "saker/segmentation/segmentation.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
 
 // What was flown, logged and replayed is seen as it was in flight.
 namespace saker::flight {

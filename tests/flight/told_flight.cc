@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <iostream>
 
-#include "autonomy/team_config.h"
-#include "core/config_io.h"
-#include "core/error.h"
-#include "core/files.h"
-#include "exchange/packed_history.h"
-#include "objects/map_io.h"
-#include "simulation/mission_world.h"
-#include "simulation/scenario.h"
-#include "simulation/truth.h"
+#include "saker/autonomy/team_config.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/exchange/packed_history.h"
+#include "saker/objects/map_io.h"
+#include "saker/simulation/mission/mission_world.h"
+#include "saker/simulation/mission/scenario.h"
+#include "saker/simulation/mission/truth.h"
 
 /// What another robot tells of the site of saker-sim without having to fly: the target farthest
 /// from take-off, as it truly is, and a pole that nobody else comes to, seen along a short path.

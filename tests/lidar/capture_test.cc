@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.h"
-#include "lidar/capture_reader.h"
-#include "lidar/capture_writer.h"
 #include "made_sensor.h"
+#include "saker/core/error.h"
+#include "saker/lidar/capture_reader.h"
+#include "saker/lidar/capture_writer.h"
 
 namespace saker::lidar {
 namespace {

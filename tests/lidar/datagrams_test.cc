@@ -1,4 +1,4 @@
-#include "lidar/datagrams.h"
+#include "saker/lidar/datagrams.h"
 
 #include <gtest/gtest.h>
 #include <pcap/pcap.h>
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/rng.h"
-#include "lidar/bytes.h"
 #include "made_sensor.h"
+#include "saker/core/rng.h"
+#include "saker/lidar/bytes.h"
 
 namespace saker::lidar {
 namespace {

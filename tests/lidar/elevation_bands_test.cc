@@ -1,4 +1,4 @@
-#include "lidar/elevation_bands.h"
+#include "saker/lidar/elevation_bands.h"
 
 #include <gtest/gtest.h>
 

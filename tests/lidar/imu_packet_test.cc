@@ -1,4 +1,4 @@
-#include "lidar/imu_packet.h"
+#include "saker/lidar/imu_packet.h"
 
 #include <gtest/gtest.h>
 

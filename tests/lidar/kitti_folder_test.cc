@@ -1,12 +1,12 @@
-#include "lidar/kitti_folder.h"
+#include "saker/lidar/kitti_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "core/error.h"
 #include "made_sensor.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 namespace {

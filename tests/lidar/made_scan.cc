@@ -1,10 +1,10 @@
-#include "lidar/made_scan.h"
+#include "saker/lidar/made_scan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::lidar::testing {
 namespace {

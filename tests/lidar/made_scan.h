@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "lidar/scan.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::lidar::testing {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lidar/packet.h"
-#include "lidar/sensor_info.h"
+#include "saker/lidar/packet.h"
+#include "saker/lidar/sensor_info.h"
 
 /// A sensor whose every pixel is known: packets of a frame, and what they must decode to.
 namespace saker::lidar::testing {

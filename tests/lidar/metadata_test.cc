@@ -1,11 +1,11 @@
-#include "lidar/metadata.h"
+#include "saker/lidar/metadata.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
 #include "made_sensor.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 namespace {

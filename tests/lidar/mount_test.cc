@@ -1,8 +1,8 @@
-#include "lidar/mount.h"
+#include "saker/lidar/mount.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 namespace {

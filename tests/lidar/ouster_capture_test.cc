@@ -1,14 +1,14 @@
-#include "lidar/ouster_capture.h"
+#include "saker/lidar/ouster_capture.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "core/error.h"
-#include "lidar/capture_writer.h"
-#include "lidar/imu_packet.h"
-#include "lidar/metadata.h"
 #include "made_sensor.h"
+#include "saker/core/error.h"
+#include "saker/lidar/capture_writer.h"
+#include "saker/lidar/imu_packet.h"
+#include "saker/lidar/metadata.h"
 
 namespace saker::lidar {
 namespace {

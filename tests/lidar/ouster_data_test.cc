@@ -4,11 +4,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "lidar/kitti_folder.h"
-#include "lidar/ouster_capture.h"
 #include "made_sensor.h"
 #include "md5.h"
 #include "paths.h"
+#include "saker/lidar/kitti_folder.h"
+#include "saker/lidar/ouster_capture.h"
 
 namespace saker::lidar {
 namespace {

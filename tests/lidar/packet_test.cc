@@ -1,9 +1,9 @@
-#include "lidar/packet.h"
+#include "saker/lidar/packet.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
 #include "made_sensor.h"
+#include "saker/core/rng.h"
 
 namespace saker::lidar {
 namespace {

@@ -1,11 +1,11 @@
-#include "lidar/rings.h"
+#include "saker/lidar/rings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/rng.h"
 #include "made_scan.h"
+#include "saker/core/rng.h"
 
 namespace saker::lidar {
 namespace {

@@ -1,11 +1,11 @@
-#include "lidar/scan_assembler.h"
+#include "saker/lidar/scan_assembler.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/rng.h"
 #include "made_sensor.h"
+#include "saker/core/rng.h"
 
 namespace saker::lidar {
 namespace {

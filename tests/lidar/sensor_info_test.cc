@@ -1,8 +1,8 @@
-#include "lidar/sensor_info.h"
+#include "saker/lidar/sensor_info.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::lidar {
 namespace {

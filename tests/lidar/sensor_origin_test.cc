@@ -1,4 +1,4 @@
-#include "lidar/sensor_origin.h"
+#include "saker/lidar/sensor_origin.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/rng.h"
-#include "lidar/kitti_folder.h"
 #include "made_scan.h"
 #include "made_sensor.h"
+#include "saker/core/rng.h"
+#include "saker/lidar/kitti_folder.h"
 
 namespace saker::lidar {
 namespace {

@@ -1,4 +1,4 @@
-#include "lidar/udp_receiver.h"
+#include "saker/lidar/udp_receiver.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 
 #include <thread>
 
-#include "core/error.h"
-#include "lidar/imu_packet.h"
-#include "lidar/ouster_sensor.h"
-#include "lidar/ouster_stream.h"
 #include "made_sensor.h"
+#include "saker/core/error.h"
+#include "saker/lidar/imu_packet.h"
+#include "saker/lidar/ouster_sensor.h"
+#include "saker/lidar/ouster_stream.h"
 
 namespace saker::lidar {
 namespace {

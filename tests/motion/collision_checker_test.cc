@@ -1,9 +1,9 @@
-#include "motion/collision_checker.h"
+#include "saker/motion/collision_checker.h"
 
 #include <gtest/gtest.h>
 
 #include "../occupancy/made_scan.h"
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::motion {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "made_world.h"
-#include "motion/verdict.h"
+#include "saker/motion/verdict.h"
 
 // A vehicle that stands nearer to something than its radius, as cells say it: planner and verdict
 // let it leave, and it comes nearer to nothing that it is too near to.

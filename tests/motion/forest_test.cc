@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "made_world.h"
-#include "motion/verdict.h"
+#include "saker/motion/verdict.h"
 
 namespace saker::motion {
 namespace {

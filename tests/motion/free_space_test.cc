@@ -1,4 +1,4 @@
-#include "motion/free_space.h"
+#include "saker/motion/free_space.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "motion/geofence.h"
+#include "saker/motion/geofence.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::motion {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/rng.h"
-#include "motion/motion.h"
+#include "saker/core/rng.h"
+#include "saker/motion/motion.h"
 
 /// Worlds of boxes and upright cylinders, whose distances are known exactly, and their snapshots.
 namespace saker::motion::made {

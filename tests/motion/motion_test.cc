@@ -1,9 +1,9 @@
-#include "motion/motion.h"
+#include "saker/motion/motion.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "made_world.h"
+#include "saker/core/error.h"
 
 namespace saker::motion {
 namespace {

@@ -1,9 +1,9 @@
-#include "motion/retiming.h"
+#include "saker/motion/retiming.h"
 
 #include <gtest/gtest.h>
 
 #include "made_world.h"
-#include "motion/speed_profile.h"
+#include "saker/motion/speed_profile.h"
 
 namespace saker::motion {
 namespace {

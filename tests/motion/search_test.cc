@@ -1,11 +1,11 @@
-#include "motion/search.h"
+#include "saker/motion/search.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
 #include "made_world.h"
-#include "motion/destination.h"
+#include "saker/motion/destination.h"
 
 namespace saker::motion {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/trajectory.h"
+#include "saker/motion/trajectory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "motion/verdict.h"
+#include "saker/motion/verdict.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::motion {
 namespace {

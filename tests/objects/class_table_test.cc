@@ -1,8 +1,8 @@
-#include "objects/class_table.h"
+#include "saker/objects/class_table.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::objects {
 namespace {

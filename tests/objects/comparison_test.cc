@@ -1,12 +1,12 @@
-#include "objects/comparison.h"
+#include "saker/objects/comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 
-#include "core/rng.h"
-#include "objects/assignment.h"
+#include "saker/core/rng.h"
+#include "saker/objects/assignment.h"
 
 namespace saker::objects {
 namespace {

@@ -1,10 +1,10 @@
-#include "objects/consistency.h"
+#include "saker/objects/consistency.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::objects {
 namespace {

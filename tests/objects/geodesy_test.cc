@@ -1,11 +1,11 @@
-#include "objects/geodesy.h"
+#include "saker/objects/geodesy.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
-#include "core/rng.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::objects {
 namespace {

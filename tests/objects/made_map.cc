@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulation/furniture.h"
-#include "simulation/plants.h"
-#include "simulation/vehicle.h"
+#include "saker/simulation/world/furniture.h"
+#include "saker/simulation/world/plants.h"
+#include "saker/simulation/world/vehicle.h"
 
 namespace saker::objects::made {
 namespace {

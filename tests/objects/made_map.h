@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/rng.h"
-#include "objects/object_map.h"
-#include "simulation/terrain.h"
+#include "saker/core/rng.h"
+#include "saker/objects/object_map.h"
+#include "saker/simulation/world/terrain.h"
 
 /// A large made map: what is measured about `.smap` is measured on it.
 namespace saker::objects::made {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "objects/object_numbers.h"
+#include "saker/objects/object_numbers.h"
 
 namespace saker::objects::made {
 namespace {

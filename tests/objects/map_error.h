@@ -1,6 +1,6 @@
 #pragma once
 
-#include "objects/object_map.h"
+#include "saker/objects/object_map.h"
 
 namespace saker::objects::made {
 

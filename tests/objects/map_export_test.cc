@@ -1,4 +1,4 @@
-#include "objects/map_export.h"
+#include "saker/objects/map_export.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "objects/map_io.h"
+#include "saker/objects/map_io.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::objects {
 namespace {

@@ -1,12 +1,12 @@
-#include "objects/rice.h"
+#include "saker/objects/rice.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/rng.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::objects {
 namespace {

@@ -6,12 +6,12 @@
 #include <set>
 #include <sstream>
 
-#include "core/error.h"
-#include "core/files.h"
 #include "made_map.h"
-#include "objects/checksum.h"
-#include "objects/map_io.h"
 #include "paths.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/objects/checksum.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::objects {
 namespace {

@@ -1,4 +1,4 @@
-#include "objects/smap.h"
+#include "saker/objects/smap.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <set>
 #include <sstream>
 
-#include "core/error.h"
 #include "made_map.h"
 #include "map_error.h"
-#include "objects/map_io.h"
+#include "saker/core/error.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::objects {
 namespace {

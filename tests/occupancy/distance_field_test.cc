@@ -1,8 +1,8 @@
-#include "occupancy/distance_field.h"
+#include "saker/occupancy/distance_field.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::occupancy {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rng.h"
-#include "core/se3.h"
+#include "saker/core/rng.h"
+#include "saker/core/se3.h"
 
 /// A world of boxes on a level ground, and the scans that a sensor of 64 beams makes of it.
 namespace saker::made {

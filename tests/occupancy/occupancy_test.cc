@@ -1,9 +1,9 @@
-#include "occupancy/occupancy.h"
+#include "saker/occupancy/occupancy.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "made_scan.h"
+#include "saker/core/error.h"
 #include "stock.h"
 
 namespace saker::occupancy {

@@ -1,8 +1,8 @@
-#include "occupancy/scan_box.h"
+#include "saker/occupancy/scan_box.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::occupancy {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "occupancy/occupancy.h"
+#include "saker/occupancy/occupancy.h"
 
 /// OctoMap's own insertion, to compare with.
 namespace saker::made {

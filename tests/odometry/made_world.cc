@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::odometry::testing {
 namespace {

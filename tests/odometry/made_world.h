@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "lidar/scan.h"
+#include "saker/lidar/scan.h"
 
 namespace saker::odometry::testing {
 

@@ -2,10 +2,10 @@
 
 #include <limits>
 
-#include "core/error.h"
-#include "core/rng.h"
 #include "made_world.h"
-#include "odometry/odometry.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
+#include "saker/odometry/odometry.h"
 
 namespace saker::odometry {
 namespace {

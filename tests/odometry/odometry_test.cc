@@ -1,11 +1,11 @@
-#include "odometry/odometry.h"
+#include "saker/odometry/odometry.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "core/error.h"
 #include "made_world.h"
+#include "saker/core/error.h"
 
 namespace saker::odometry {
 namespace {

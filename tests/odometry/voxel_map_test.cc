@@ -1,8 +1,8 @@
-#include "odometry/voxel_map.h"
+#include "saker/odometry/voxel_map.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::odometry {
 namespace {

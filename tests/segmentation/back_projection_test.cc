@@ -1,4 +1,4 @@
-#include "segmentation/back_projection.h"
+#include "saker/segmentation/back_projection.h"
 
 #include <gtest/gtest.h>
 

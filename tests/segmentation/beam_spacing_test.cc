@@ -1,11 +1,11 @@
-#include "segmentation/beam_spacing.h"
+#include "saker/segmentation/beam_spacing.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/rng.h"
-#include "lidar/made_scan.h"
+#include "saker/core/rng.h"
+#include "saker/lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

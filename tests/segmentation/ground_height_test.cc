@@ -1,10 +1,10 @@
-#include "segmentation/ground_height.h"
+#include "saker/segmentation/ground_height.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "lidar/made_scan.h"
+#include "saker/lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

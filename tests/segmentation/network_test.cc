@@ -1,13 +1,13 @@
-#include "segmentation/network.h"
+#include "saker/segmentation/network.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
 #include "paths.h"
-#include "segmentation/features.h"
+#include "saker/core/error.h"
+#include "saker/segmentation/features.h"
 
 namespace saker::segmentation {
 namespace {

@@ -1,10 +1,10 @@
-#include "segmentation/range_image.h"
+#include "saker/segmentation/range_image.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "lidar/made_scan.h"
+#include "saker/lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

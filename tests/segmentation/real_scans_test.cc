@@ -6,10 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/files.h"
-#include "lidar/kitti_folder.h"
 #include "paths.h"
-#include "segmentation/segmentation.h"
+#include "saker/core/files.h"
+#include "saker/lidar/kitti_folder.h"
+#include "saker/segmentation/segmentation.h"
 
 namespace saker::segmentation {
 namespace {

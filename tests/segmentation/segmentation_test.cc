@@ -1,13 +1,13 @@
-#include "segmentation/segmentation.h"
+#include "saker/segmentation/segmentation.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "core/config_folder.h"
-#include "core/error.h"
-#include "lidar/made_scan.h"
+#include "saker/core/config_folder.h"
+#include "saker/core/error.h"
+#include "saker/lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

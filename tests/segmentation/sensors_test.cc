@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <map>
 
-#include "lidar/kitti_folder.h"
-#include "segmentation/segmentation.h"
-#include "simulation/training.h"
+#include "saker/lidar/kitti_folder.h"
+#include "saker/segmentation/segmentation.h"
+#include "saker/simulation/mission/training.h"
 
 namespace saker::segmentation {
 namespace {

@@ -1,10 +1,10 @@
-#include "simulation/capture_files.h"
+#include "saker/simulation/mission/capture_files.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "lidar/ouster_stream.h"
-#include "lidar/recording.h"
+#include "saker/core/error.h"
+#include "saker/lidar/ouster_stream.h"
+#include "saker/lidar/recording.h"
 
 namespace saker::simulation {
 namespace {

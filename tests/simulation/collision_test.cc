@@ -1,9 +1,9 @@
-#include "simulation/collision.h"
+#include "saker/simulation/vehicle/collision.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
-#include "simulation/triangle.h"
+#include "saker/core/rng.h"
+#include "saker/simulation/world/triangle.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,10 +1,10 @@
-#include "simulation/fleet.h"
+#include "saker/simulation/world/fleet.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "simulation/ray_caster.h"
+#include "saker/simulation/sensor/ray_caster.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/flight_controller.h"
+#include "saker/simulation/vehicle/flight_controller.h"
 
 #include <gtest/gtest.h>
 

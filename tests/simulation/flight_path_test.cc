@@ -1,8 +1,8 @@
-#include "simulation/flight_path.h"
+#include "saker/simulation/mission/flight_path.h"
 
 #include <gtest/gtest.h>
 
-#include "simulation/flight.h"
+#include "saker/simulation/mission/flight.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/flight.h"
+#include "saker/simulation/mission/flight.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cstring>
 #include <sstream>
 
-#include "core/files.h"
-#include "lidar/recording.h"
-#include "objects/map_io.h"
+#include "saker/core/files.h"
+#include "saker/lidar/recording.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,11 +1,11 @@
-#include "simulation/geometric_controller.h"
+#include "saker/simulation/vehicle/geometric_controller.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
-#include "core/rng.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/instruments.h"
+#include "saker/simulation/vehicle/instruments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "simulation/lidar_unit.h"
+#include "saker/simulation/sensor/lidar_unit.h"
 
 #include <gtest/gtest.h>
 
-#include "lidar/ouster_stream.h"
+#include "saker/lidar/ouster_stream.h"
 
 namespace saker::simulation {
 namespace {

@@ -3,9 +3,9 @@
 #include <deque>
 #include <functional>
 
-#include "simulation/flight_controller.h"
-#include "simulation/instruments.h"
-#include "simulation/wind.h"
+#include "saker/simulation/vehicle/flight_controller.h"
+#include "saker/simulation/vehicle/instruments.h"
+#include "saker/simulation/vehicle/wind.h"
 
 namespace saker::simulation {
 

@@ -1,16 +1,16 @@
-#include "simulation/mission_site.h"
+#include "saker/simulation/mission/mission_site.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
-#include "core/config_io.h"
-#include "core/error.h"
-#include "core/statistics.h"
 #include "paths.h"
-#include "simulation/mission_world.h"
-#include "simulation/scenario.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+#include "saker/core/statistics.h"
+#include "saker/simulation/mission/mission_world.h"
+#include "saker/simulation/mission/scenario.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,12 +1,12 @@
-#include "simulation/mission_world.h"
+#include "saker/simulation/mission/mission_world.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "simulation/collision.h"
-#include "simulation/truth.h"
+#include "saker/core/error.h"
+#include "saker/simulation/mission/truth.h"
+#include "saker/simulation/vehicle/collision.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/mount.h"
+#include "saker/simulation/sensor/mount.h"
 
 #include <gtest/gtest.h>
 

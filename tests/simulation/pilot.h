@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulation/simulated_vehicle.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
 
 namespace saker::simulation {
 

@@ -1,9 +1,9 @@
-#include "simulation/quadrotor.h"
+#include "saker/simulation/vehicle/quadrotor.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "simulation/instruments.h"
+#include "saker/core/error.h"
+#include "saker/simulation/vehicle/instruments.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/ray_caster.h"
+#include "saker/simulation/sensor/ray_caster.h"
 
 #include <gtest/gtest.h>
 

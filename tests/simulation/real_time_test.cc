@@ -1,18 +1,18 @@
-#include "sim/real_time.h"
+#include "tools/sim/real_time.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bus/messages.h"
-#include "core/config_io.h"
-#include "lidar/metadata.h"
-#include "lidar/ouster_stream.h"
-#include "lidar/udp_receiver.h"
-#include "objects/map_io.h"
+#include "flight/bus/messages.h"
 #include "paths.h"
-#include "simulation/scenario.h"
+#include "saker/core/config_io.h"
+#include "saker/lidar/metadata.h"
+#include "saker/lidar/ouster_stream.h"
+#include "saker/lidar/udp_receiver.h"
+#include "saker/objects/map_io.h"
+#include "saker/simulation/mission/scenario.h"
 
 namespace saker::tools {
 namespace {

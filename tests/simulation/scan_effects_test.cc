@@ -1,8 +1,8 @@
-#include "simulation/scan_effects.h"
+#include "saker/simulation/sensor/scan_effects.h"
 
 #include <gtest/gtest.h>
 
-#include "simulation/scan_points.h"
+#include "saker/simulation/sensor/scan_points.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,10 +1,10 @@
-#include "simulation/scan_files.h"
+#include "saker/simulation/sensor/scan_files.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/files.h"
+#include "saker/core/files.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/scan_points.h"
+#include "saker/simulation/sensor/scan_points.h"
 
 #include <gtest/gtest.h>
 

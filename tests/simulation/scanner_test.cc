@@ -1,4 +1,4 @@
-#include "simulation/scanner.h"
+#include "saker/simulation/sensor/scanner.h"
 
 #include <gtest/gtest.h>
 

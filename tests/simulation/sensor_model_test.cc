@@ -1,4 +1,4 @@
-#include "simulation/sensor_model.h"
+#include "saker/simulation/sensor/sensor_model.h"
 
 #include <gtest/gtest.h>
 

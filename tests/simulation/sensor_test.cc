@@ -1,10 +1,10 @@
-#include "simulation/sensor.h"
+#include "saker/simulation/sensor/sensor.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "lidar/ray_table.h"
+#include "saker/lidar/ray_table.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,12 +1,12 @@
-#include "simulation/simulated_vehicle.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "core/error.h"
-#include "lidar/ouster_stream.h"
 #include "pilot.h"
+#include "saker/core/error.h"
+#include "saker/lidar/ouster_stream.h"
 
 namespace saker::simulation {
 namespace {

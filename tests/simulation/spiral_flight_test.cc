@@ -1,9 +1,9 @@
-#include "simulation/spiral_flight.h"
+#include "saker/simulation/mission/spiral_flight.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "simulation/collision.h"
+#include "saker/core/error.h"
+#include "saker/simulation/vehicle/collision.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,11 +1,11 @@
-#include "simulation/spiral_path.h"
+#include "saker/simulation/mission/spiral_path.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <set>
 
-#include "simulation/world.h"
+#include "saker/simulation/world/world.h"
 
 namespace saker::simulation {
 namespace {

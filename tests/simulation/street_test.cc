@@ -2,13 +2,13 @@
 
 #include <set>
 
-#include "simulation/facades.h"
-#include "simulation/fences.h"
-#include "simulation/furnish_street.h"
-#include "simulation/ground_details.h"
-#include "simulation/ray_caster.h"
-#include "simulation/street_furniture.h"
-#include "simulation/world_builder.h"
+#include "saker/simulation/sensor/ray_caster.h"
+#include "saker/simulation/world/facades.h"
+#include "saker/simulation/world/fences.h"
+#include "saker/simulation/world/furnish_street.h"
+#include "saker/simulation/world/ground_details.h"
+#include "saker/simulation/world/street_furniture.h"
+#include "saker/simulation/world/world_builder.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,13 +1,13 @@
-#include "simulation/takeoff.h"
+#include "saker/simulation/mission/takeoff.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
-#include "simulation/collision.h"
-#include "simulation/mission_world.h"
-#include "simulation/simulated_vehicle.h"
+#include "saker/core/error.h"
+#include "saker/simulation/mission/mission_world.h"
+#include "saker/simulation/vehicle/collision.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,8 +1,8 @@
-#include "simulation/terrain.h"
+#include "saker/simulation/world/terrain.h"
 
 #include <gtest/gtest.h>
 
-#include "simulation/ray_caster.h"
+#include "saker/simulation/sensor/ray_caster.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/training.h"
+#include "saker/simulation/mission/training.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/files.h"
+#include "saker/core/files.h"
 
 namespace saker::simulation {
 namespace {

@@ -1,10 +1,10 @@
-#include "simulation/two_wheeler.h"
+#include "saker/simulation/world/two_wheeler.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "simulation/person.h"
+#include "saker/simulation/world/person.h"
 
 namespace saker::simulation {
 namespace {

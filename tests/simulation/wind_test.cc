@@ -1,4 +1,4 @@
-#include "simulation/wind.h"
+#include "saker/simulation/vehicle/wind.h"
 
 #include <gtest/gtest.h>
 

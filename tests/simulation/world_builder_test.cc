@@ -1,10 +1,10 @@
-#include "simulation/world_builder.h"
+#include "saker/simulation/world/world_builder.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "simulation/flight.h"
+#include "saker/simulation/mission/flight.h"
 
 namespace saker::simulation {
 namespace {

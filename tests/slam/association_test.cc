@@ -1,11 +1,11 @@
-#include "slam/association.h"
+#include "saker/slam/association.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "made_world.h"
-#include "slam/duplicates.h"
+#include "saker/slam/duplicates.h"
 
 namespace saker::slam {
 namespace {

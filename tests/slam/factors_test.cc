@@ -1,4 +1,4 @@
-#include "slam/factors.h"
+#include "saker/slam/factors.h"
 
 #include <ceres/gradient_checker.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "slam/model_algebra.h"
+#include "saker/slam/model_algebra.h"
 
 namespace saker::slam {
 namespace {

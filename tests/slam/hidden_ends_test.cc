@@ -1,11 +1,11 @@
-#include "slam/hidden_ends.h"
+#include "saker/slam/hidden_ends.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "made_world.h"
-#include "slam/landmark_estimate.h"
+#include "saker/slam/landmark_estimate.h"
 
 namespace saker::slam {
 namespace {

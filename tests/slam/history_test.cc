@@ -1,4 +1,4 @@
-#include "slam/history.h"
+#include "saker/slam/history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "slam/landmark.h"
+#include "saker/slam/landmark.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "made_world.h"
-#include "slam/graph.h"
-#include "slam/landmark_estimate.h"
+#include "saker/slam/graph.h"
+#include "saker/slam/landmark_estimate.h"
 
 /// Few poor views may agree best on an object of negative size: no map can say that.
 namespace saker::slam {

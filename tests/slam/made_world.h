@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rng.h"
-#include "slam/slam.h"
+#include "saker/core/rng.h"
+#include "saker/slam/slam.h"
 
 /// A made world for tests: vehicles and trunks around a loop, a robot that drives it with noisy
 /// odometry and measures what is near with noisy virtual sensors of known covariance.

@@ -1,4 +1,4 @@
-#include "slam/model_algebra.h"
+#include "saker/slam/model_algebra.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::slam {
 namespace {

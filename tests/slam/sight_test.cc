@@ -1,11 +1,11 @@
-#include "slam/sight.h"
+#include "saker/slam/sight.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "made_world.h"
-#include "slam/slam.h"
+#include "saker/slam/slam.h"
 
 namespace saker::slam {
 namespace {

@@ -1,12 +1,12 @@
-#include "slam/slam.h"
+#include "saker/slam/slam.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
 #include "made_world.h"
-#include "objects/map_io.h"
+#include "saker/core/error.h"
+#include "saker/objects/map_io.h"
 
 namespace saker::slam {
 namespace {

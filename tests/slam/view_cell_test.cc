@@ -1,10 +1,10 @@
-#include "objects/view_cell.h"
+#include "saker/objects/view_cell.h"
 
 #include <gtest/gtest.h>
 
 #include "made_world.h"
-#include "slam/graph.h"
-#include "slam/landmark_estimate.h"
+#include "saker/slam/graph.h"
+#include "saker/slam/landmark_estimate.h"
 
 /// Windows of one object from one view cell share their error: together they weigh as one.
 namespace saker::slam {

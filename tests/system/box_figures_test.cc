@@ -1,4 +1,4 @@
-#include "saker/box_figures.h"
+#include "tools/saker/evaluate/box_figures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "saker/calibration.h"
+#include "tools/saker/experiment/calibration.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::tools {
 namespace {

@@ -1,13 +1,13 @@
-#include "saker/configuration.h"
+#include "tools/saker/configuration.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/config_io.h"
-#include "core/error.h"
-#include "core/files.h"
 #include "paths.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::tools {
 namespace {

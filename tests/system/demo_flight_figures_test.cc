@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "saker/flight_figures.h"
+#include "saker/core/error.h"
+#include "tools/saker/flight_report/flight_figures.h"
 
 namespace saker::tools {
 namespace {

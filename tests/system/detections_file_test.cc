@@ -1,4 +1,4 @@
-#include "saker/detections_file.h"
+#include "tools/saker/replay/detections_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "saker/evaluation.h"
+#include "tools/saker/evaluate/evaluation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "saker/experiment_report.h"
+#include "tools/saker/experiment/experiment_report.h"
 
 #include <gtest/gtest.h>
 
-#include "core/files.h"
-#include "saker/target_figures.h"
-#include "saker/viewpoint_log.h"
+#include "saker/core/files.h"
+#include "tools/saker/experiment/target_figures.h"
+#include "tools/saker/experiment/viewpoint_log.h"
 
 namespace saker::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "saker/experiment_table.h"
+#include "tools/saker/experiment/experiment_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "saker/labelled_folder.h"
+#include "tools/saker/evaluate/labelled_folder.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::tools {
 namespace {

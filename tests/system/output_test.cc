@@ -1,14 +1,14 @@
-#include "saker/output.h"
+#include "flight/command_line/output.h"
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
 #include <functional>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
-namespace saker::tools {
+namespace saker::flight {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ TEST_F(OutputTest, AFileIsNotReplacedUnlessForced) {
 }
 
 }  // namespace
-}  // namespace saker::tools
+}  // namespace saker::flight

@@ -1,10 +1,10 @@
-#include "saker/policy_comparison.h"
+#include "tools/saker/experiment/policy_comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "saker/sample_matching.h"
+#include "tools/saker/characterise/sample_matching.h"
 
 #include <gtest/gtest.h>
 

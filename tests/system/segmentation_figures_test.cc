@@ -1,4 +1,4 @@
-#include "saker/segmentation_figures.h"
+#include "tools/saker/evaluate/segmentation_figures.h"
 
 #include <gtest/gtest.h>
 

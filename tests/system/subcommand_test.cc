@@ -1,12 +1,12 @@
-#include "saker/subcommand.h"
+#include "flight/command_line/subcommand.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
-namespace saker::tools {
+namespace saker::flight {
 namespace {
 
 /// A program with `copy INPUT -o OUT` and `map info MAP`.
@@ -116,4 +116,4 @@ TEST_F(SubcommandTest, HelpHasStatus0AndAnExample) {
 }
 
 }  // namespace
-}  // namespace saker::tools
+}  // namespace saker::flight

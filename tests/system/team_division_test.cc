@@ -1,12 +1,12 @@
-#include "saker/team_division.h"
+#include "tools/saker/mission/team_division.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "autonomy/team_map.h"
-#include "core/error.h"
-#include "core/rng.h"
+#include "saker/autonomy/team_map.h"
+#include "saker/core/error.h"
+#include "saker/core/rng.h"
 
 namespace saker::tools {
 namespace {

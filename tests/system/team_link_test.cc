@@ -1,4 +1,4 @@
-#include "saker/team_link.h"
+#include "tools/saker/mission/team_link.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "saker/team_survey.h"
+#include "tools/saker/mission/team_survey.h"
 
 #include <gtest/gtest.h>
 

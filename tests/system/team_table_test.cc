@@ -1,10 +1,10 @@
-#include "saker/team_table.h"
+#include "tools/saker/mission/team_table.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::tools {
 namespace {

@@ -1,11 +1,11 @@
-#include "saker/vehicle_figures.h"
+#include "tools/saker/evaluate/vehicle_figures.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::tools {
 namespace {

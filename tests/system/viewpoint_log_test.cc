@@ -1,9 +1,9 @@
-#include "saker/viewpoint_log.h"
+#include "tools/saker/experiment/viewpoint_log.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::tools {
 namespace {

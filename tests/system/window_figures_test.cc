@@ -1,4 +1,4 @@
-#include "saker/window_figures.h"
+#include "tools/saker/evaluate/window_figures.h"
 
 #include <gtest/gtest.h>
 

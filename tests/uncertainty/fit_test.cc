@@ -1,12 +1,12 @@
-#include "uncertainty/fit.h"
+#include "saker/uncertainty/fit.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "core/error.h"
 #include "made_samples.h"
-#include "uncertainty/evaluation.h"
+#include "saker/core/error.h"
+#include "saker/uncertainty/evaluation.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rng.h"
-#include "uncertainty/sample.h"
+#include "saker/core/rng.h"
+#include "saker/uncertainty/sample.h"
 
 /// Samples of vehicles whose errors follow a known law.
 namespace saker::uncertainty {

@@ -1,11 +1,11 @@
-#include "uncertainty/model_file.h"
+#include "saker/uncertainty/model_file.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "made_samples.h"
 #include "paths.h"
-#include "uncertainty/fit.h"
+#include "saker/core/error.h"
+#include "saker/uncertainty/fit.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -1,10 +1,10 @@
-#include "uncertainty/random_effects.h"
+#include "saker/uncertainty/random_effects.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/rng.h"
+#include "saker/core/rng.h"
 
 namespace saker::uncertainty {
 namespace {

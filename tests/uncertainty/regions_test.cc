@@ -1,11 +1,11 @@
-#include "uncertainty/regions.h"
+#include "saker/uncertainty/regions.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::uncertainty {
 namespace {

@@ -1,12 +1,12 @@
-#include "uncertainty/sample.h"
+#include "saker/uncertainty/sample.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <numbers>
 
-#include "core/error.h"
-#include "core/files.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
 
 namespace saker::uncertainty {
 namespace {

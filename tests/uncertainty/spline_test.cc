@@ -1,4 +1,4 @@
-#include "uncertainty/spline.h"
+#include "saker/uncertainty/spline.h"
 
 #include <gtest/gtest.h>
 

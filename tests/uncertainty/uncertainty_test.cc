@@ -1,4 +1,4 @@
-#include "uncertainty/uncertainty.h"
+#include "saker/uncertainty/uncertainty.h"
 
 #include <gtest/gtest.h>
 

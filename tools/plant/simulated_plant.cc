@@ -1,4 +1,4 @@
-#include "plant/simulated_plant.h"
+#include "tools/plant/simulated_plant.h"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "autonomy/stepped.h"
-#include "simulation/simulated_vehicle.h"
+#include "saker/autonomy/stepped.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
 
 namespace saker::tools {
 

@@ -5,11 +5,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "base_station/store.h"
-#include "exchange/key.h"
-#include "saker/configuration.h"
-#include "saker/output.h"
-#include "saker/subcommand.h"
+#include "flight/base_station/store.h"
+#include "saker/exchange/key.h"
+#include "tools/saker/command.h"
+#include "tools/saker/configuration.h"
 
 namespace saker::tools {
 namespace {

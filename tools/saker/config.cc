@@ -1,8 +1,8 @@
 #include <iostream>
 
-#include "core/error.h"
-#include "saker/configuration.h"
-#include "saker/subcommand.h"
+#include "saker/core/error.h"
+#include "tools/saker/command.h"
+#include "tools/saker/configuration.h"
 
 namespace saker::tools {
 namespace {

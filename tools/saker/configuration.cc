@@ -1,6 +1,6 @@
-#include "saker/configuration.h"
+#include "tools/saker/configuration.h"
 
-#include "core/config_io.h"
+#include "saker/core/config_io.h"
 
 namespace saker::tools {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "process/configuration.h"
-#include "saker/subcommand.h"
+#include "flight/process/configuration.h"
+#include "tools/saker/command.h"
 
 namespace saker::tools {
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "bus/machine.h"
-#include "saker/configuration.h"
-#include "saker/subcommand.h"
+#include "flight/bus/machine.h"
+#include "tools/saker/command.h"
+#include "tools/saker/configuration.h"
 
 namespace saker::tools {
 namespace {

@@ -1,5 +1,5 @@
-#include "saker/configuration.h"
-#include "saker/subcommand.h"
+#include "tools/saker/command.h"
+#include "tools/saker/configuration.h"
 
 /// One function a subcommand; the list is made from tools/saker/CMakeLists.txt.
 namespace saker::tools {

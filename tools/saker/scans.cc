@@ -3,10 +3,9 @@
 
 #include <memory>
 
-#include "core/files.h"
-#include "lidar/ouster_capture.h"
-#include "saker/output.h"
-#include "saker/subcommand.h"
+#include "saker/core/files.h"
+#include "saker/lidar/ouster_capture.h"
+#include "tools/saker/command.h"
 
 namespace saker::tools {
 namespace {

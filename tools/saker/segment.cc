@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "core/progress.h"
-#include "lidar/recording.h"
-#include "saker/configuration.h"
-#include "saker/output.h"
-#include "segmentation/segmentation.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/core/progress.h"
+#include "saker/lidar/recording.h"
+#include "saker/segmentation/segmentation.h"
+#include "tools/saker/command.h"
+#include "tools/saker/configuration.h"
 
 namespace saker::tools {
 namespace {

@@ -1,12 +1,11 @@
 #include <optional>
 
-#include "core/config_io.h"
-#include "core/error.h"
-#include "core/progress.h"
-#include "saker/output.h"
-#include "saker/subcommand.h"
-#include "simulation/flight.h"
-#include "simulation/training.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+#include "saker/core/progress.h"
+#include "saker/simulation/mission/flight.h"
+#include "saker/simulation/mission/training.h"
+#include "tools/saker/command.h"
 
 namespace saker::tools {
 namespace {

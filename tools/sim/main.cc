@@ -1,13 +1,13 @@
 #include <spdlog/spdlog.h>
 
-#include "bus/priority.h"
-#include "core/config_io.h"
-#include "core/error.h"
-#include "process/configuration.h"
-#include "process/process.h"
-#include "saker/output.h"
-#include "sim/real_time.h"
-#include "simulation/scenario.h"
+#include "flight/bus/priority.h"
+#include "flight/process/configuration.h"
+#include "flight/process/process.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+#include "saker/simulation/mission/scenario.h"
+#include "tools/saker/command.h"
+#include "tools/sim/real_time.h"
 
 namespace saker::tools {
 namespace {

@@ -1,12 +1,12 @@
-#include "sim/real_time.h"
+#include "tools/sim/real_time.h"
 
 #include <spdlog/spdlog.h>
 
 #include <ctime>
 #include <thread>
 
-#include "bus/messages.h"
-#include "core/error.h"
+#include "flight/bus/messages.h"
+#include "saker/core/error.h"
 
 namespace saker::tools {
 namespace {

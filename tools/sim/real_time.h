@@ -2,11 +2,11 @@
 
 #include <chrono>
 
-#include "bus/bus.h"
-#include "bus/presence.h"
-#include "sim/sim_recorder.h"
-#include "sim/udp_sender.h"
-#include "simulation/simulated_vehicle.h"
+#include "flight/bus/bus.h"
+#include "flight/bus/presence.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
+#include "tools/sim/sim_recorder.h"
+#include "tools/sim/udp_sender.h"
 
 namespace saker::tools {
 

@@ -1,14 +1,14 @@
-#include "sim/sim_recorder.h"
+#include "tools/sim/sim_recorder.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/config_value.h"
-#include "core/error.h"
-#include "lidar/metadata.h"
-#include "objects/map_io.h"
-#include "simulation/truth.h"
+#include "saker/core/config_value.h"
+#include "saker/core/error.h"
+#include "saker/lidar/metadata.h"
+#include "saker/objects/map_io.h"
+#include "saker/simulation/mission/truth.h"
 
 namespace saker::tools {
 namespace {

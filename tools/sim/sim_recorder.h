@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/files.h"
-#include "simulation/simulated_vehicle.h"
+#include "saker/core/files.h"
+#include "saker/simulation/vehicle/simulated_vehicle.h"
 
 namespace saker::tools {
 

@@ -1,4 +1,4 @@
-#include "sim/udp_sender.h"
+#include "tools/sim/udp_sender.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/error.h"
+#include "saker/core/error.h"
 
 namespace saker::tools {
 namespace {

@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "flight/bus/scan_log.h"
+#include "saker/autonomy/lockstep.h"
+#include "saker/core/error.h"
+#include "saker/core/files.h"
+#include "saker/core/progress.h"
+#include "saker/core/timings.h"
+#include "saker/lidar/recording.h"
+#include "saker/objects/map_io.h"
+#include "tools/saker/command.h"
+#include "tools/saker/configuration.h"
+#include "tools/saker/picture/map_picture.h"
+#include "tools/saker/replay/run_recorder.h"
+#include "tools/saker/replay/trajectory_truth.h"
+
+namespace saker::tools {
+namespace {
+
+struct ReplayOptions {
+  std::string input;
+  std::string format = "auto";
+  std::string metadata;
+  std::string truth;
+};
+
+const std::map<std::string, lidar::RecordingFormat> kFormats = {
+    {"auto", lidar::RecordingFormat::kAutomatic},
+    {"kitti", lidar::RecordingFormat::kKitti},
+    {"ouster", lidar::RecordingFormat::kOuster}};
+
+std::unique_ptr<lidar::ScanSource> open_input(const ReplayOptions& options) {
+  const bool log =
+      options.format == "lcm" || (options.format == "auto" && flight::is_lcm_log(options.input));
+  if (log) return std::make_unique<flight::ScanLog>(options.input);
+  return lidar::open_recording(options.input, kFormats.at(options.format), options.metadata);
+}
+
+/// Passes frames on, shows progress and times the reading.
+class WatchedSource : public lidar::ScanSource {
+ public:
+  WatchedSource(lidar::ScanSource& source, core::Timings& timings)
+      : source_(source), timings_(timings), progress_("replay", source.expected_scans()) {}
+
+  std::optional<lidar::Frame> next() override {
+    progress_.update(frames_++);
+    return timings_.time("read", [&] { return source_.next(); });
+  }
+  [[nodiscard]] lidar::SourceCounters counters() const override { return source_.counters(); }
+
+ private:
+  lidar::ScanSource& source_;
+  core::Timings& timings_;
+  core::Progress progress_;
+  long frames_ = 0;
+};
+
+double path_length(const std::vector<SE3>& poses) {
+  double length = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    length += (poses[i].translation() - poses[i - 1].translation()).norm();
+  }
+  return length;
+}
+
+std::vector<Eigen::Vector3d> positions(const std::vector<SE3>& poses) {
+  std::vector<Eigen::Vector3d> result;
+  for (const SE3& T : poses) result.emplace_back(T.translation());
+  return result;
+}
+
+nlohmann::json scans_not_used(const autonomy::LockstepResult& result) {
+  nlohmann::json list = nlohmann::json::array();
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    const autonomy::ScanRecord& scan = result.scans[i];
+    if (scan.status == odometry::OdometryStatus::ok) continue;
+    const std::string reason = scan.fault.empty() ? to_string(scan.reason) : scan.fault;
+    list.push_back({{"scan", i}, {"name", scan.name}, {"reason", reason}});
+  }
+  return list;
+}
+
+nlohmann::json source_figures(const lidar::SourceCounters& counters) {
+  return {{"faulty_scans", counters.faulty_scans},
+          {"bad_packets", counters.bad_packets},
+          {"late_packets", counters.late_packets},
+          {"repeated_columns", counters.repeated_columns},
+          {"missing_columns", counters.missing_columns},
+          {"lost_fragments", counters.lost_fragments},
+          {"ended_early", counters.ended_early}};
+}
+
+std::map<std::string, int> object_counts(const objects::ObjectMap& map,
+                                         const objects::ClassTable& table) {
+  std::map<std::string, int> counts;
+  for (const objects::MapObject& object : map.objects) ++counts[table[object.class_id].name];
+  return counts;
+}
+
+nlohmann::json figures(const autonomy::LockstepResult& result, double wall_s,
+                       const objects::ClassTable& table) {
+  const double duration = to_seconds(result.scans.back().stamp - result.scans.front().stamp);
+  return {{"scans", result.scans.size()},
+          {"duration_s", duration},
+          {"wall_s", wall_s},
+          {"real_time_factor", duration / wall_s},
+          {"path_m", path_length(result.T_world_lidar)},
+          {"labelled_scans", result.labelled_scans},
+          {"segmentation_hz", duration > 0 ? (result.labelled_scans - 1) / duration : 0},
+          {"slam_cycles", result.slam_cycles},
+          {"keyframes", result.keyframes},
+          {"objects", object_counts(result.map, table)},
+          {"scans_not_registered", scans_not_used(result)}};
+}
+
+/// What a user wants to know at the end, and what was wrong with the recording.
+void report(const nlohmann::json& results) {
+  for (const auto& scan : results["scans_not_registered"]) {
+    spdlog::warn("scan {}: {}", scan["name"].get<std::string>(), scan["reason"].get<std::string>());
+  }
+  if (const std::string cause = results["source"]["ended_early"]; !cause.empty()) {
+    spdlog::warn("the recording ends early: {}", cause);
+  }
+  spdlog::info("{} scans, {:.1f} s, in {:.1f} s: {:.2f} times real time",
+               results["scans"].get<int>(), results["duration_s"].get<double>(),
+               results["wall_s"].get<double>(), results["real_time_factor"].get<double>());
+  spdlog::info("{:.1f} m flown, objects: {}", results["path_m"].get<double>(),
+               results["objects"].dump());
+}
+
+int replay(const ReplayOptions& options, const CommonOptions& common) {
+  const autonomy::Config config = read_configuration(common).autonomy;
+  const auto source = open_input(options);
+  if (const std::string note = source->note(); !note.empty()) spdlog::info("{}", note);
+  std::optional<Truth> truth;
+  if (!options.truth.empty()) truth = read_truth(options.truth, config.objects);
+  core::Timings timings;
+  autonomy::Lockstep lockstep(config, common.threads, timings);
+  const OutputFolder out(common);
+
+  RunRecorder recorder(out.path(), config.objects);
+  const auto start = std::chrono::steady_clock::now();
+  WatchedSource watched(*source, timings);
+  const autonomy::LockstepResult result = lockstep.run(watched, recorder);
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (result.scans.empty())
+    throw Error(fmt::format("{}: no scan in it, expected at least one", options.input));
+
+  recorder.write(result);
+  nlohmann::json results = figures(result, wall, config.objects);
+  results["source"] = source_figures(source->counters());
+  if (truth)
+    results["trajectory"] =
+        trajectory_figures(result.scans, result.T_world_lidar, truth->trajectory);
+  core::write_file(out / "results.json", results.dump(2) + "\n");
+  core::write_file(out / "timings.csv", timings.csv());
+  write_map_picture(out / "map.png",
+                    {.map = result.map,
+                     .truth = truth ? &truth->map : nullptr,
+                     .trajectory = positions(result.T_world_lidar),
+                     .cloud = recorder.cloud(result)},
+                    config.objects);
+  report(results);
+  return 0;
+}
+
+}  // namespace
+
+void add_replay(Commands& commands) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App& app =
+      commands.add({.name = "replay",
+                    .does = "the pipeline over a recording: trajectory and object map",
+                    .output = Output::folder,
+                    .example = "saker replay drive/ -o out --threads 2"},
+                   [options](const CommonOptions& common) { return replay(*options, common); });
+  app.add_option("INPUT", options->input,
+                 "a folder of KITTI scans (*.bin, or with velodyne/ in it), an Ouster capture "
+                 "(*.pcap) or a log of lcm-logger on the bulk network (scans with reflectivity, "
+                 "deskewed, without "
+                 "their poses)")
+      ->required();
+  app.add_option("--format", options->format, "kitti, ouster or lcm; found out when not given")
+      ->check(CLI::IsMember({"auto", "kitti", "ouster", "lcm"}));
+  app.add_option("--meta", options->metadata,
+                 "the sensor's metadata; beside the capture when not given");
+  app.add_option("--truth", options->truth, "a truth.json: drawn into map.png, and compared with");
+}
+
+}  // namespace saker::tools

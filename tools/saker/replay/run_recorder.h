@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "saker/autonomy/lockstep.h"
+#include "tools/saker/replay/detections_file.h"
+
+/// What a run over a recording leaves behind, as in docs/contract.md.
+namespace saker::tools {
+
+/// Hears a lockstep run: streams detections to OUT/detections.jsonl, keeps what the trajectory
+/// files and the picture need.
+class RunRecorder : public autonomy::LockstepObserver {
+ public:
+  /// Throws Error where OUT cannot be written.
+  RunRecorder(const std::filesystem::path& out, const objects::ClassTable& table);
+
+  void on_scan(const autonomy::ScanRecord& record,
+               const odometry::OdometryEstimate& estimate) override;
+  void on_detections(const objects::Detections& detections) override;
+
+  /// trajectory.txt, odometry.txt, map.json, map.smap; closes detections.jsonl.
+  void write(const autonomy::LockstepResult& result);
+
+  /// Some points of the run in the frame of the map: what the picture shows behind the objects.
+  [[nodiscard]] std::vector<Eigen::Vector3d> cloud(const autonomy::LockstepResult& result) const;
+
+ private:
+  struct SparsePoint {
+    std::uint32_t scan;  ///< index into LockstepResult::scans
+    Eigen::Vector3f in_lidar;
+  };
+
+  std::filesystem::path out_;
+  const objects::ClassTable& table_;
+  DetectionsWriter detections_;
+  std::uint32_t scans_ = 0;
+  std::vector<SparsePoint> cloud_;
+};
+
+/// A TUM row `t x y z qx qy qz qw`.
+[[nodiscard]] std::string tum_row(Time stamp, const SE3& T);
+
+}  // namespace saker::tools
