@@ -10,6 +10,8 @@ MOST_WORDS = 9000
 MOST_README_LINES = 70
 MOST_FIGURES = 8  # a row each
 MOST_LINE = 300
+MOST_TERMS = 30
+ROOM_LINES = range(5, 16)  # of a module's or process's README, after its title
 REFERENCES = {"channels.md", "contract.md"}  # looked up, not read
 GENERATED = {"results.md", "real.md"}  # their tables come from results.json and real.json
 ROOTS = ("configs", "docs", "examples", "flight", "lcmtypes", "modules", "scripts", "tests", "tools")
@@ -66,6 +68,17 @@ class Documents(unittest.TestCase):
         table = [line for line in measured[:next(
             n for n, line in enumerate(measured) if line.startswith("## "))] if line.startswith("|")]
         self.assertLessEqual(len(table) - 2, MOST_FIGURES)
+
+    def test_a_room_says_what_is_in_it_in_some_lines(self):
+        for folder in ("modules", "flight"):
+            for page in (repository.ROOT / folder).glob("*/README.md"):
+                with self.subTest(page=repository.relative(page)):
+                    text = [line for line in page.read_text().splitlines()[1:] if line]
+                    self.assertIn(len(text), ROOM_LINES)
+
+    def test_terms_are_few(self):
+        rows = re.findall(r"^\| .* \|$", (repository.ROOT / "docs/terms.md").read_text(), re.MULTILINE)
+        self.assertLessEqual(len(rows) - 1, MOST_TERMS)
 
     def test_no_line_is_long(self):
         for page in all_pages():
