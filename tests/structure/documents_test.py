@@ -43,8 +43,8 @@ def words(page):
 
 
 def exists(name, *folders):
-    """Whether a file or folder of that name lies in one of the folders; `*`, `<x>` and SCENARIO stand for any name."""
-    pattern = re.sub(r"<\w+>|\bSCENARIO\b", "*", name).rstrip("/")
+    """Whether a file or folder of that name lies in one of the folders; `*`, `<module>`, `x.h` and SCENARIO are any name."""
+    pattern = re.sub(r"<\w+>|\bSCENARIO\b|\bx(?=\.h$)", "*", name).rstrip("/")
     if "*" in pattern:
         return any(any(folder.glob(pattern)) for folder in folders)
     return any((folder / pattern).exists() for folder in folders)
