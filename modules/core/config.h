@@ -10,19 +10,23 @@
 /// `visit`:
 ///
 ///     struct OdometryConfig {
-///       double voxel_m = 1.0;
+///       double max_range_m = 80;
+///       double map_sample_m = 0.2;
 ///       MapConfig map;
 ///
 ///       template <class Visitor>
 ///       void visit(Visitor& v) {
-///         v.field("voxel_m", voxel_m, {0.05, 10}, "m", "edge of a voxel of the local map:
-///         KISS-ICP's 1 % of the range"); v.group("map", map, "the local map");
+///         v.setting("max_range_m", max_range_m, {5, 500}, "m", "Farther points are left out.");
+///         v.field("map_sample_m", map_sample_m, {0.02, 5}, "m", "one point a voxel of this size");
+///         v.group("map", map, "the local map");
 ///       }
 ///     };
 ///
-/// Loading, saving, checking and documenting all come from that list (config_io.h). Keys are named
-/// as the members; units that are not SI are in the name. The parent's struct contains its
-/// children's: the file has the shape of the program.
+/// A `setting` is what the person who flies, mounts or buys sets; a `field` is a constant of an
+/// algorithm or of a fit: a file may name both, but `saker config` shows settings alone. Loading,
+/// saving, checking and documenting all come from that list (config_io.h). Keys are named as the
+/// members; units that are not SI are in the name. The parent's struct contains its children's: the
+/// file has the shape of the program.
 namespace saker::core {
 
 /// Closed interval of valid values; a value out of it (or NaN) is an Error that names the key.
@@ -31,19 +35,30 @@ struct Bounds {
   double high = std::numeric_limits<double>::infinity();
 };
 
-/// A visitor of configurations, for documentation. Fields are bool, int, double, std::string, an
-/// enum with `enum_names(E)`, or vectors of double or std::string.
+/// Base of the visitors to which a setting is a field as any other. Fields are bool, int, double,
+/// std::string, an enum with `enum_names(E)`, or vectors of double or std::string.
 ///
-///     template <class T> void field(const char* name, T& value, Bounds bounds, const char* unit,
-///     const char* meaning); template <class T> void field(const char* name, T& value, const char*
-///     unit, const char* meaning); template <class Config> void group(const char* name, Config&
-///     child, const char* meaning); template <class Config> void list(const char* name,
-///     std::vector<Config>& children, const char* meaning);
+/// A visitor has, as `BoundsCheck` below:
+///
+///     field(name, value, bounds, unit, meaning) and the same without bounds,
+///     group(name, child, meaning) and list(name, children, meaning).
+template <class Visitor>
+class EachField {
+ public:
+  template <class T>
+  void setting(const char* name, T& value, Bounds bounds, const char* unit, const char* meaning) {
+    static_cast<Visitor&>(*this).field(name, value, bounds, unit, meaning);
+  }
+  template <class T>
+  void setting(const char* name, T& value, const char* unit, const char* meaning) {
+    static_cast<Visitor&>(*this).field(name, value, unit, meaning);
+  }
+};
 
 /// Visits a config and throws Error("key: value, expected low … high") on the first number out of
 /// its bounds: what a stage's constructor calls, so that a config that did not come from a file is
 /// checked too.
-class BoundsCheck {
+class BoundsCheck : public EachField<BoundsCheck> {
  public:
   explicit BoundsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
 

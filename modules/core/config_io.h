@@ -3,11 +3,14 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "saker/core/config_value.h"
+#include "saker/core/moved_keys.h"
 
 /// Configurations in YAML files: loaded over the defaults in the structs, saved with a comment on
 /// every key.
@@ -17,7 +20,7 @@
 namespace saker::core {
 
 /// Every key of a configuration, groups included: "odometry", "odometry.voxel_m", …
-class KeyCollector {
+class KeyCollector : public EachField<KeyCollector> {
  public:
   explicit KeyCollector(std::string prefix = "") : prefix_(std::move(prefix)) {}
 
@@ -58,7 +61,7 @@ class KeyCollector {
 };
 
 /// Reads one map of a file into one struct; what the file does not name keeps its value.
-class ConfigLoader {
+class ConfigLoader : public EachField<ConfigLoader> {
  public:
   ConfigLoader(ConfigPlace place, YAML::Node node)
       : place_(std::move(place)), map_(std::move(node)) {
@@ -113,31 +116,78 @@ class ConfigLoader {
   std::vector<std::string> known_;
 };
 
+/// Whether a configuration has a setting, in its groups and lists too.
+class SettingFinder {
+ public:
+  template <class T>
+  void field(const char*, T&, Bounds, const char*, const char*) {}
+  template <class T>
+  void field(const char*, T&, const char*, const char*) {}
+  template <class T>
+  void setting(const char*, T&, Bounds, const char*, const char*) {
+    found_ = true;
+  }
+  template <class T>
+  void setting(const char*, T&, const char*, const char*) {
+    found_ = true;
+  }
+  template <class Config>
+  void group(const char*, Config& child, const char*) {
+    child.visit(*this);
+  }
+  template <class Config>
+  void list(const char*, std::vector<Config>& children, const char*) {
+    for (Config& child : children) child.visit(*this);
+  }
+
+  [[nodiscard]] bool found() const { return found_; }
+
+ private:
+  bool found_ = false;
+};
+
+/// What of a configuration is written: all of it, its settings alone, or all with `~` in front of
+/// the comment on what is no setting; of a group without settings on the group alone.
+enum class Written { all, settings, all_marked };
+
 /// Writes YAML with a comment on each key: unit, valid values, meaning.
 class ConfigSaver {
  public:
-  explicit ConfigSaver(int depth = 0) : indent_(2 * depth, ' ') {}
+  explicit ConfigSaver(Written written = Written::all, int depth = 0)
+      : written_(written), indent_(2 * static_cast<std::size_t>(depth), ' ') {}
 
   template <class T>
   void field(const char* name, T& value, Bounds bounds, const char* unit, const char* meaning) {
-    add(name, value_text(value), field_comment(unit, bounds, meaning));
+    if (written_ == Written::settings) return;
+    add(name, value_text(value), marked(field_comment(unit, bounds, meaning)));
   }
   template <class T>
   void field(const char* name, T& value, const char* unit, const char* meaning) {
-    add(name, value_text(value), field_comment(unit, {}, meaning));
+    field(name, value, Bounds{}, unit, meaning);
+  }
+  template <class T>
+  void setting(const char* name, T& value, Bounds bounds, const char* unit, const char* meaning) {
+    add(name, value_text(value), field_comment(unit, bounds, meaning));
+  }
+  template <class T>
+  void setting(const char* name, T& value, const char* unit, const char* meaning) {
+    setting(name, value, Bounds{}, unit, meaning);
   }
   template <class Config>
   void group(const char* name, Config& child, const char* meaning) {
-    add(name, "", meaning);
-    ConfigSaver inner(depth() + 1);
+    if (left_out(child)) return;
+    add(name, "", comment_of(child, meaning));
+    ConfigSaver inner(written_inside(child), depth() + 1);
     child.visit(inner);
     text_ += inner.text_;
   }
   template <class Config>
   void list(const char* name, std::vector<Config>& children, const char* meaning) {
-    add(name, children.empty() ? "[]" : "", meaning);
+    Entries<Config> entries{children};
+    if (left_out(entries)) return;
+    add(name, children.empty() ? "[]" : "", comment_of(entries, meaning));
     for (Config& child : children) {
-      ConfigSaver inner(depth() + 2);
+      ConfigSaver inner(written_inside(child), depth() + 2);
       inner.comments_ = &child == &children.front();
       child.visit(inner);
       text_ += inner.as_list_entry();
@@ -147,10 +197,38 @@ class ConfigSaver {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  template <class Config>
+  struct Entries {
+    std::vector<Config>& children;
+    void visit(SettingFinder& finder) { finder.list("", children, ""); }
+  };
+
+  template <class Config>
+  [[nodiscard]] static bool has_setting(Config& config) {
+    SettingFinder finder;
+    config.visit(finder);
+    return finder.found();
+  }
+  template <class Config>
+  [[nodiscard]] bool left_out(Config& config) const {
+    return written_ == Written::settings && !has_setting(config);
+  }
+  template <class Config>
+  [[nodiscard]] std::string comment_of(Config& config, const char* meaning) const {
+    return has_setting(config) ? meaning : marked(meaning);
+  }
+  template <class Config>
+  [[nodiscard]] Written written_inside(Config& config) const {
+    return written_ == Written::all_marked && !has_setting(config) ? Written::all : written_;
+  }
+  [[nodiscard]] std::string marked(const std::string& comment) const {
+    return written_ == Written::all_marked ? "~ " + comment : comment;
+  }
   [[nodiscard]] int depth() const { return static_cast<int>(indent_.size() / 2); }
   void add(const char* name, const std::string& value, const std::string& comment);
   [[nodiscard]] std::string as_list_entry() const;
 
+  Written written_;
   std::string indent_;
   std::string text_;
   bool comments_ = true;
@@ -164,40 +242,58 @@ template <class Config>
   return collector.keys();
 }
 
+/// Keys that a file or a --set of an earlier version may name, and who is told of each that did.
+struct ConfigHistory {
+  std::span<const MovedKey> moved;
+  std::function<void(const std::string&)> say = [](const std::string&) {};
+};
+
+/// A map of keys over `config`: those that moved go to their new places first.
+template <class Config>
+[[nodiscard]] Config config_from_node(YAML::Node node, const std::string& source,
+                                      ConfigPlace::Lines lines, Config config,
+                                      const ConfigHistory& history) {
+  const std::vector<std::string> keys = config_keys(config);
+  for (const std::string& line : move_keys(node, history.moved)) {
+    history.say(source + ": " + line);
+  }
+  ConfigLoader::load(ConfigPlace(source, keys, lines), node, config);
+  return config;
+}
+
 /// The text of a YAML file over `config`; `source` is how messages call it.
 template <class Config>
 [[nodiscard]] Config config_from_yaml(const std::string& text, const std::string& source,
-                                      Config config = {}) {
-  const std::vector<std::string> keys = config_keys(config);
-  ConfigLoader::load(ConfigPlace(source, keys, ConfigPlace::Lines::shown), parse_yaml(text, source),
-                     config);
-  return config;
+                                      Config config = {}, const ConfigHistory& history = {}) {
+  return config_from_node(parse_yaml(text, source), source, ConfigPlace::Lines::shown,
+                          std::move(config), history);
 }
 
 /// `a.b=value` or `a.list[2].b=value` over `config`.
 template <class Config>
-[[nodiscard]] Config config_with_setting(const std::string& setting, Config config) {
-  const std::vector<std::string> keys = config_keys(config);
-  ConfigLoader::load(ConfigPlace("--set " + setting, keys, ConfigPlace::Lines::hidden),
-                     setting_as_yaml(setting), config);
-  return config;
+[[nodiscard]] Config config_with_setting(const std::string& setting, Config config,
+                                         const ConfigHistory& history = {}) {
+  return config_from_node(setting_as_yaml(setting), "--set " + setting, ConfigPlace::Lines::hidden,
+                          std::move(config), history);
 }
 
-/// Defaults, then `file` (none when empty), then the settings in their order.
+/// `config`, then `file` over it (none when empty), then the settings in their order.
 template <class Config>
 [[nodiscard]] Config load_config(const std::filesystem::path& file,
-                                 const std::vector<std::string>& settings) {
-  Config config;
-  if (!file.empty()) config = config_from_yaml(read_file(file), file.string(), std::move(config));
+                                 const std::vector<std::string>& settings, Config config = {},
+                                 const ConfigHistory& history = {}) {
+  if (!file.empty()) {
+    config = config_from_yaml(read_file(file), file.string(), std::move(config), history);
+  }
   for (const std::string& setting : settings) {
-    config = config_with_setting(setting, std::move(config));
+    config = config_with_setting(setting, std::move(config), history);
   }
   return config;
 }
 
 template <class Config>
-[[nodiscard]] std::string config_to_yaml(Config config) {
-  ConfigSaver saver;
+[[nodiscard]] std::string config_to_yaml(Config config, Written written = Written::all) {
+  ConfigSaver saver(written);
   config.visit(saver);
   return saver.text();
 }

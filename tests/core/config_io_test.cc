@@ -181,6 +181,79 @@ TEST(ConfigIo, EveryKeyIsSavedWithUnitRangeAndMeaning) {
             "    robust: false\n");
 }
 
+struct Mixed {
+  double speed = 2;
+  int rounds = 3;
+  Gate gate;
+  struct Site {
+    double height_m = 4;
+    double cell_m = 1;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+      v.setting("height_m", height_m, {0, 9}, "m", "Flown so high.");
+      v.field("cell_m", cell_m, {0.1, 2}, "m", "edge of a cell");
+    }
+  } site;
+  std::vector<Gate> gates = {Gate{}};
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.setting("speed", speed, {0.1, 9}, "m/s", "Never faster.");
+    v.field("rounds", rounds, {1, 9}, "", "of the search");
+    v.group("gate", gate, "data association");
+    v.group("site", site, "where");
+    v.list("gates", gates, "one a class");
+  }
+};
+
+TEST(ConfigIo, SettingsAreSavedAlone) {
+  EXPECT_EQ(config_to_yaml(Mixed(), Written::settings),
+            "speed: 2  # m/s, 0.1 … 9: Never faster.\n"
+            "site:  # where\n"
+            "  height_m: 4  # m, 0 … 9: Flown so high.\n");
+}
+
+TEST(ConfigIo, WhatIsNoSettingIsMarkedOnceAGroup) {
+  EXPECT_EQ(config_to_yaml(Mixed(), Written::all_marked),
+            "speed: 2  # m/s, 0.1 … 9: Never faster.\n"
+            "rounds: 3  # ~ 1 … 9: of the search\n"
+            "gate:  # ~ data association\n"
+            "  distance_m: 2  # m, 0.1 … 10: how far a point may be\n"
+            "  robust: true  # whether outliers are weighted down\n"
+            "site:  # where\n"
+            "  height_m: 4  # m, 0 … 9: Flown so high.\n"
+            "  cell_m: 1  # ~ m, 0.1 … 2: edge of a cell\n"
+            "gates:  # ~ one a class\n"
+            "  - distance_m: 2  # m, 0.1 … 10: how far a point may be\n"
+            "    robust: true  # whether outliers are weighted down\n");
+}
+
+TEST(ConfigIo, ASettingIsReadAndCheckedAsAFieldIs) {
+  EXPECT_EQ(config_with_setting("site.height_m=5", Mixed()).site.height_m, 5);
+  EXPECT_EQ(message([] { (void)config_with_setting("speed=10", Mixed()); }),
+            "--set speed=10: speed: \"10\", expected 0.1 … 9 m/s");
+  Mixed fast;
+  fast.speed = 10;
+  EXPECT_EQ(message([&] { (void)checked(fast, "mixed"); }), "mixed.speed: 10, expected 0.1 … 9");
+}
+
+TEST(ConfigIo, AnEarlierVersionsKeysGoToTheirNewPlaces) {
+  const MovedKey moved[] = {
+      {"pace", "speed", ""}, {"old.gate", "gate", ""}, {"old", nullptr, "why"}};
+  std::vector<std::string> lines;
+  const ConfigHistory history{moved, [&](const std::string& line) { lines.push_back(line); }};
+  const Mixed read = config_from_yaml("pace: 5\nold: {gate: {robust: false}, x: {y: 1}}\n",
+                                      "f.yaml", Mixed(), history);
+  EXPECT_EQ(read.speed, 5);
+  EXPECT_FALSE(read.gate.robust);
+  EXPECT_EQ(lines, (std::vector<std::string>{"f.yaml: pace: is now speed",
+                                             "f.yaml: old.gate.robust: is now gate.robust",
+                                             "f.yaml: old.x.y: is gone and ignored: why"}));
+  EXPECT_EQ(message([&] { (void)config_from_yaml("pace: 50\n", "f.yaml", Mixed(), history); }),
+            "f.yaml:1: speed: \"50\", expected 0.1 … 9 m/s");
+}
+
 TEST(ConfigIo, AStageChecksAConfigThatCameFromElsewhere) {
   Root root;
   root.gates[1].distance_m = 50;
