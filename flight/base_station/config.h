@@ -33,10 +33,9 @@ struct RelayConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field(
+    v.setting(
         "ground_url", ground_url, "",
-        "LCM network of the ground, another group and another port than bus.control_url; empty: "
-        "no relay");
+        "LCM network of the ground, another group and port than bus.control_url; empty: no relay.");
     v.list("up", up, "what the ground hears of the robots");
     v.list("down", down, "what the robots hear of the ground, when the team's key sealed it");
     v.field("most_age_s", most_age_s, {0.1, 3600}, "s",
@@ -57,14 +56,13 @@ struct BaseConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field(
+    v.setting(
         "folder", folder, "",
-        "where base.db, what the robots said, and the seal's counters are kept; made where there "
-        "is none");
-    v.field("most_store_mb", most_store_mb, {1, 1 << 20}, "MB",
-            "of the store; what is more is refused, and what is there kept: ten minutes of flight "
-            "are 0.2 MB");
-    v.field("most_robots", most_robots, {1, 1000}, "", "that are exchanged with");
+        "The base station keeps what the robots said in this folder (base.db), made if need be.");
+    v.setting("most_store_mb", most_store_mb, {1, 1 << 20}, "MB",
+              "The store grows to this size; what is more is refused.");
+    v.setting("most_robots", most_robots, {1, 1000}, "",
+              "The base station exchanges with at most so many robots.");
     v.group("relay", relay, "between the robots' network and the ground's");
   }
 };

@@ -12,7 +12,6 @@
 #include "flight/bus/presence.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
-#include "saker/core/config_io.h"
 #include "saker/core/error.h"
 
 namespace saker::flight {
@@ -94,7 +93,7 @@ void serve(BaseStation& base, Side& robots, std::optional<Side>& ground) {
 }
 
 int run(const ProcessOptions& options) {
-  const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
+  const ProcessConfig config = read_configuration(options.configuration);
   const std::string& ground_url = config.base.relay.ground_url;
   const int buffer_kb = config.bus.receive_buffer_kb;
   Side robots(config.bus.control_url, buffer_kb, options.robot);

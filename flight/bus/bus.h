@@ -23,13 +23,12 @@ struct BusConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("control_url", control_url, "",
-            "LCM network of all channels but scans and occupancy; ttl=1 reaches other machines");
-    v.field("bulk_url", bulk_url, "",
-            "LCM network of scans and occupancy; another port, never leaves the machine");
-    v.field("receive_buffer_kb", receive_buffer_kb, {64, 1 << 20}, "kB",
-            "of each socket; a scan of 64x1024 is 0.4 MB at once, two and a block of occupancy "
-            "wait while a reader is busy");
+    v.setting("control_url", control_url, "",
+              "LCM network of all channels but scans and occupancy; ttl=1 reaches other machines.");
+    v.setting("bulk_url", bulk_url, "",
+              "LCM network of scans and occupancy: another port, never leaves the machine.");
+    v.setting("receive_buffer_kb", receive_buffer_kb, {64, 1 << 20}, "kB",
+              "Each socket has a receive buffer of this size; a scan of 64x1024 is 0.4 MB.");
   }
 };
 

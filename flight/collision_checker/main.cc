@@ -9,7 +9,6 @@
 #include "flight/command_line/output.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
-#include "saker/core/config_io.h"
 #include "saker/core/error.h"
 
 namespace saker::flight {
@@ -47,7 +46,7 @@ void leave_loops(const CommonOptions& output, const CheckerProcess& checker, Ste
 
 int run(const ProcessOptions& options, const CommonOptions& output) {
   const auto begin = Steady::now();
-  const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
+  const ProcessConfig config = read_configuration(options.configuration);
   Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-collision-checker");
   presence.claim();

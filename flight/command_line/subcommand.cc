@@ -17,11 +17,7 @@ int default_threads() { return std::max(1, static_cast<int>(std::thread::hardwar
 
 void add_common(CLI::App& app, CommonOptions& common, Output output) {
   common.threads = default_threads();
-  app.add_option("--config", common.config_file, "configuration file (YAML), over the defaults")
-      ->type_name("FILE");
-  app.add_option("--set", common.settings, "overrides one key of the configuration; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);  // what follows the one value is the input's
+  add_configuration_options(app, common.configuration);
   app.add_option("--seed", common.seed, "of all random numbers; 1 where it is not given")
       ->type_name("N");
   app.add_option("--threads", common.threads, "in all; results do not depend on it")

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "flight/command_line/configuration_source.h"
+
 /// The frame of the command line. A subcommand is one file that defines one function
 ///
 ///     void add_scans(Commands& commands) {
@@ -24,8 +26,7 @@ namespace saker::flight {
 
 /// What every subcommand takes.
 struct CommonOptions {
-  std::string config_file;            ///< --config; empty: defaults only
-  std::vector<std::string> settings;  ///< --set key=value, in order, over the file
+  ConfigurationSource configuration;
   std::uint64_t seed = 1;
   int threads = 1;  ///< in all, at least 1
   bool verbose = false;

@@ -44,7 +44,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                uncertainty_),
       body_pose_(config.autonomy.body_pose, config.autonomy.odometry.motion.inertial,
                  lidar::mount_pose(config.autonomy.mount)),
-      planning_(config.autonomy.planning, autonomy::active_as_mounted(config.autonomy),
+      planning_(config.autonomy.planning, autonomy::active_as_flown(config.autonomy, input.sensor),
                 config.autonomy.motion, config.autonomy.objects, input.prior,
                 config.autonomy.mission.height_m, uncertainty_),
       has_targets_(!planning_.policy().idle()),

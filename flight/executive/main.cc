@@ -6,7 +6,6 @@
 #include "flight/executive/executive.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
-#include "saker/core/config_io.h"
 #include "saker/lidar/metadata.h"
 #include "saker/objects/map_io.h"
 
@@ -20,7 +19,8 @@ struct FlightOptions {
 };
 
 int fly(const ProcessOptions& options, const FlightOptions& flight) {
-  const auto config = core::load_config<ProcessConfig>(options.config_file, options.settings);
+  ProcessConfig config = read_configuration(options.configuration);
+  config.autonomy = autonomy::within_geofence(std::move(config.autonomy));
   ExecutiveInput input{lidar::read_metadata(flight.metadata), {}};
   if (!flight.prior.empty()) input.prior = objects::read_map(flight.prior, config.autonomy.objects);
   const FlightMark mark;
@@ -40,6 +40,9 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   Executive executive(config, input, bus, presence);
   const OutputFolder out(flight.output);
   spdlog::info("flies as {}", options.robot);
+  const std::string note =
+      autonomy::noise_note(config.autonomy, lidar::name_and_mode(input.sensor));
+  if (!note.empty()) spdlog::info(note);
   if (briefing) spdlog::info(briefing->text());
   Service service;
   service.ready();

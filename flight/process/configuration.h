@@ -1,7 +1,10 @@
 #pragma once
 
+#include <string>
+
 #include "flight/base_station/config.h"
 #include "flight/bus/bus.h"
+#include "flight/command_line/configuration_source.h"
 #include "saker/autonomy/config.h"
 #include "saker/autonomy/team_config.h"
 #include "saker/exchange/peer.h"
@@ -20,20 +23,19 @@ struct ExchangeConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("key_file", key_file, "",
-            "the team's key, the same on every robot, the base and the ground: saker base key. A "
-            "robot without that file tells nobody, and says so");
-    v.field(
-        "folder", folder, "",
-        "where a robot keeps what it tells and hears, and the seal's counters; made where there "
-        "is none. Empty: it tells nobody. The base has base.folder");
-    v.field("call_s", call_s, {0, 3600}, "s",
-            "before take-off, for a base to answer; then it is taken to be out of reach");
-    v.field("hear_s", hear_s, {0, 3600}, "s",
-            "before take-off, at most, for a base in reach to tell what it has: 2 MB");
-    v.field("landed_s", landed_s, {0, 3600}, "s",
-            "for which a robot that has landed stays, at most, while a base in reach lacks some of "
-            "what it has to tell");
+    v.setting("key_file", key_file, "",
+              "File of the team's key, the same on robots, base and ground (saker base key); "
+              "without it a robot tells nobody.");
+    v.setting("folder", folder, "",
+              "A robot keeps what it tells and hears in this folder, made if need be; empty: it "
+              "tells nobody.");
+    v.setting("call_s", call_s, {0, 3600}, "s",
+              "Before take-off a base has so long to answer, else it is out of reach.");
+    v.setting("hear_s", hear_s, {0, 3600}, "s",
+              "Before take-off a base in reach has so long to tell what it has.");
+    v.setting("landed_s", landed_s, {0, 3600}, "s",
+              "After landing a robot stays so long at most until a base in reach has all it has to "
+              "tell.");
     v.group("link", link, "between a robot and the base station");
   }
 };
@@ -58,5 +60,13 @@ struct ProcessConfig {
     v.group("fit", fit, "of uncertainty models to samples, saker characterise fit");
   }
 };
+
+enum class OldKeys { said, unsaid };
+
+/// Keys of earlier versions are taken to their new places (old_keys.h), with a warning in the log
+/// for each where they are said. Throws Error on an unknown preset or key, a wrong type or a value
+/// out of range.
+[[nodiscard]] ProcessConfig read_configuration(const ConfigurationSource& source,
+                                               OldKeys old_keys = OldKeys::said);
 
 }  // namespace saker::flight

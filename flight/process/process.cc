@@ -65,16 +65,12 @@ int refuse(const std::string& name, const std::string& what) {
 int stop_requests() { return requests; }
 
 int run_program(const Program& program, int argc, const char* const* argv) {
-  ProcessOptions options{.robot = program.robot, .config_file = {}, .settings = {}};
+  ProcessOptions options{.robot = program.robot, .configuration = {}};
   CLI::App app(program.does, program.name);
   app.add_option("--robot", options.robot, "name of the robot, first part of its channels")
       ->type_name("NAME")
       ->capture_default_str();
-  app.add_option("--config", options.config_file, "configuration file (YAML), over the defaults")
-      ->type_name("FILE");
-  app.add_option("--set", options.settings, "overrides one key of the configuration; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_configuration_options(app, options.configuration);
   app.add_flag("-v,--verbose", options.verbose, "log debug lines too");
   program.add_options(app);
   app.footer("Example: " + program.name + " --robot " + program.robot);

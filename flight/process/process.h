@@ -3,15 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
-#include <vector>
+
+#include "flight/command_line/configuration_source.h"
 
 namespace saker::flight {
 
 /// What every process is started with.
 struct ProcessOptions {
   std::string robot = "R1";
-  std::string config_file;
-  std::vector<std::string> settings;
+  ConfigurationSource configuration;
   bool verbose = false;
 };
 

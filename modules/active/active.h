@@ -60,7 +60,7 @@ struct GoalsConfig {
             "dithering");
     v.field("attempts", attempts, {1, 5}, "",
             "at a target that was seen from nowhere: the later ones when all others are closed");
-    v.field("return_home", return_home, "", "whether the tour ends where it began");
+    v.setting("return_home", return_home, "", "The tour ends where it began.");
   }
 };
 
@@ -111,7 +111,9 @@ struct ActiveConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("policy", policy, "", "how viewpoints are chosen");
+    v.setting("policy", policy, "",
+              "Viewpoints are chosen as the best of this project (saker), as in the paper (paper), "
+              "or by visiting each target (visit).");
     v.group("targets", targets, "what is to be mapped");
     v.group("tour", tour, "in which order");
     v.group("view", view, "the sensor's field of view");

@@ -30,11 +30,12 @@ struct SweepConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("when", when, "",
-            "the geofence is swept for targets: never, without_prior (when none is known "
-            "beforehand) or always (once those are closed)");
-    v.field("spacing_m", spacing_m, {1, 200}, "m",
-            "between lines: active.view.farthest_m, so that each vehicle is in range from both");
+    v.setting("when", when, "",
+              "The geofence is swept for targets never, without_prior (where none is known "
+              "beforehand) or always (once those are closed).");
+    v.setting("spacing_m", spacing_m, {1, 200}, "m",
+              "Lines of the sweep lie so far apart; active.view.farthest_m sees each vehicle from "
+              "both sides.");
     v.field("step_m", step_m, {1, 200}, "m",
             "between stops on a line; one whose surroundings were seen is left out");
     v.field("inset_m", inset_m, {0, 50}, "m", "from where a line meets the geofence to its stop");
@@ -68,8 +69,8 @@ struct DiscoveryConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("most", most, {0, 1000}, "",
-            "objects beside those of the prior map's targets that become targets; 0: none do");
+    v.setting("most", most, {0, 1000}, "",
+              "At most so many objects that the prior map lacks become targets.");
     v.field(
         "settle_s", settle_s, {1.5, 600}, "s",
         "for which such an object must be in the map, in its place: what drives is not by then");

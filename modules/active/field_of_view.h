@@ -12,24 +12,24 @@
 namespace saker::active {
 
 struct FieldOfViewConfig {
-  double lowest_deg = -22.5;
-  double highest_deg = 22.5;
   double margin_deg = 2;
   double nearest_m = 2;
   double farthest_m = 16;
 
-  /// As the lidar is mounted: no setting of its own, `mount` says it.
+  /// The lowest and the highest beam: no settings, the sensor's metadata says them. Without, an
+  /// OS1 (second generation).
+  double lowest_deg = -22.5;
+  double highest_deg = 22.5;
+  /// As the lidar is mounted: `mount` says it.
   Eigen::Matrix3d R_body_lidar = Eigen::Matrix3d::Identity();
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("lowest_deg", lowest_deg, {-89, 0}, "deg", "the lowest beam: OS1 (second generation)");
-    v.field("highest_deg", highest_deg, {0, 89}, "deg", "the highest beam");
     v.field("margin_deg", margin_deg, {0, 20}, "deg",
             "kept of it when a viewpoint is chosen: pitch, and the lidar's place on the body");
     v.field("nearest_m", nearest_m, {0, 20}, "m", "in x-y to the target's nearest point");
-    v.field("farthest_m", farthest_m, {1, 100}, "m",
-            "in x-y to its centre: farther away a beam's spacing (0.7°) exceeds 0.2 m");
+    v.setting("farthest_m", farthest_m, {1, 100}, "m",
+              "A target is looked at from no farther, in x-y: beams must not be too far apart.");
   }
 };
 

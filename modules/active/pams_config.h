@@ -3,6 +3,7 @@
 #include "saker/active/faces.h"
 #include "saker/active/region_samples.h"
 #include "saker/core/config.h"
+#include "saker/objects/class_table.h"
 
 namespace saker::active {
 
@@ -46,6 +47,7 @@ struct PamsConfig {
   double dwell_s = 1.5;
   LookedFromConfig looked_from;
   double prior_place_m = 0.5;
+  bool prior_of_class = false;
   double prior_length_m = 0.5;
   double prior_width_m = 0.5;
   FacesConfig faces;
@@ -77,8 +79,10 @@ struct PamsConfig {
     config.dwell_s = 0.9;
     config.looked_from.from_start = true;
     config.looked_from.near_m = 0.5;  // beyond what an estimate trembles by, well within a cell
-    config.prior_length_m = 0.45;
-    config.prior_width_m = 0.12;
+    config.prior_of_class = true;
+    const objects::ObjectClass vehicle;
+    config.prior_length_m = vehicle.length_sd_m;
+    config.prior_width_m = vehicle.width_sd_m;
     config.faces.hidden_end_m = 0.08;  // lengths with one were off by 0.06 m, widths by 0.04 m
     config.faces.hidden_side_m = 0.08;
     config.enough_entropy = -11.5;
@@ -111,10 +115,11 @@ struct PamsConfig {
     v.group("looked_from", looked_from, "when a viewpoint counts as one that was looked from");
     v.field("prior_place_m", prior_place_m, {0.01, 10}, "m",
             "sd of x and y before the first view: half a car's width");
-    v.field("prior_length_m", prior_length_m, {0.01, 10}, "m",
-            "sd of the length before it: of a class of vehicles 0.45");
-    v.field("prior_width_m", prior_width_m, {0.01, 10}, "m",
-            "the same of the width: of a class of vehicles 0.12");
+    v.field(
+        "prior_of_class", prior_of_class, "",
+        "whether those of length and width are the class's (objects.classes), not the next two");
+    v.field("prior_length_m", prior_length_m, {0.01, 10}, "m", "sd of the length before it");
+    v.field("prior_width_m", prior_width_m, {0.01, 10}, "m", "the same of the width");
     v.group("faces", faces, "what a view tells of each face of a box");
     v.field("common_counts", common_counts, "",
             "whether the error that all views share, never flown off, is part of the entropy");

@@ -18,12 +18,12 @@ constexpr Eigen::Index kCuboidRows = 9;  // of a covariance: [rotation, translat
 constexpr Eigen::Index kLengthRow = 6;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-Eigen::Vector3d default_size(const TargetsConfig& config) {
-  if (config.default_size_m.size() != 3) {
-    throw Error("active.targets.default_size_m: " + std::to_string(config.default_size_m.size()) +
+Eigen::Vector3d size_of(const objects::ObjectClass& c) {
+  if (c.size_m.size() != 3) {
+    throw Error("objects.classes, size_m of " + c.name + ": " + std::to_string(c.size_m.size()) +
                 " numbers, expected length, width and height");
   }
-  return Eigen::Vector3d(config.default_size_m.data());
+  return Eigen::Vector3d(c.size_m.data());
 }
 
 /// What an object occupies; a cylinder as the upright cuboid around it.
@@ -49,13 +49,14 @@ std::string name_of(const MapObject& object) {
 
 /// A prior knows the place roughly, the size perhaps and the heading not at all: a square that
 /// holds the target however it is turned about z, in steps of a right angle.
-Cuboid prior_extent(const MapObject& object, const TargetsConfig& config) {
+Cuboid prior_extent(const MapObject& object, const objects::ObjectClass& object_class,
+                    const TargetsConfig& config) {
   Cuboid extent = cuboid_of(object.model);
   extent.pose.linear().setIdentity();
   if (!objects::place(object.model).allFinite()) {
     throw Error(name_of(object) + "its place is not finite, expected three numbers");
   }
-  const Eigen::Vector3d size = default_size(config);
+  const Eigen::Vector3d size = size_of(object_class);
   if (!extent.pose.matrix().allFinite()) extent.pose.translation() = objects::place(object.model);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(extent.size[axis] > 0 && std::isfinite(extent.size[axis])))
@@ -82,14 +83,14 @@ bool is_target(const objects::ClassTable& table, objects::ClassId id) {
 
 TargetList::TargetList(const TargetsConfig& config, const objects::ClassTable& table,
                        const objects::ObjectMap& prior)
-    : config_(config) {
+    : config_(config), table_(table) {
   for (const MapObject& object : prior.objects) {
     next_id_ = std::max(next_id_, object.id + 1);
     if (!is_target(table, object.class_id)) continue;
     Target& target = targets_.emplace_back();
     target.id = object.id;
     target.class_id = object.class_id;
-    target.extent = target.expected = prior_extent(object, config);
+    target.extent = target.expected = prior_extent(object, table[object.class_id], config);
     target.prior_place = target.expected_place();
     if (!is_known(object, config.known_sd_m)) continue;
     target.status = TargetStatus::visited;
@@ -176,7 +177,7 @@ int TargetList::add(const MapObject& object, bool complete) {
   target.id = next_id_++;
   target.class_id = object.class_id;
   target.discovered = true;
-  target.expected = prior_extent(object, config_);
+  target.expected = prior_extent(object, table_[object.class_id], config_);
   target.prior_place = target.expected_place();
   attach(size() - 1, &object, complete);
   ++revision_;

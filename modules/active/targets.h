@@ -6,6 +6,7 @@
 
 #include "saker/active/belief.h"
 #include "saker/core/config.h"
+#include "saker/objects/class_table.h"
 #include "saker/objects/object_map.h"
 
 /// What the tour is for: the prior map's objects of target classes and those that discovery adds,
@@ -20,7 +21,6 @@ struct TargetsConfig {
   double prior_margin_m = 0.5;
   double known_sd_m = 0.1;
   int most_targets = 300;
-  std::vector<double> default_size_m = {4.5, 1.9, 1.6};
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -39,8 +39,6 @@ struct TargetsConfig {
             "paper's small error; 0: every target is visited");
     v.field("most_targets", most_targets, {1, 1000}, "",
             "a prior map with more of them is refused: association and tour must fit into a cycle");
-    v.field("default_size_m", default_size_m, {0.1, 30}, "m",
-            "length, width, height of a target whose prior says none: a car");
   }
 };
 
@@ -125,6 +123,7 @@ class TargetList {
   void attach(int index, const objects::MapObject* object, bool complete);
 
   TargetsConfig config_;
+  objects::ClassTable table_;
   int next_id_ = 0;
   int revision_ = 0;
   std::vector<Target> targets_;

@@ -108,9 +108,9 @@ struct ViewpointConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("height_m", height_m, {0.3, 50}, "m",
-            "of the body above the ground under the target: over vehicles, under most crowns; "
-            "higher where the geofence asks for it");
+    v.setting("height_m", height_m, {0.3, 50}, "m",
+              "Viewpoints are so high over the ground under the target, within the geofence: over "
+              "vehicles, under most crowns.");
     v.field("bearings", bearings, {4, 72}, "", "directions around the target");
     v.field("rings", rings, {1, 10}, "", "distances, from the nearest that has it all in view");
     v.field("ring_step_m", ring_step_m, {0.25, 10}, "m", "between them");

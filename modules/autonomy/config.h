@@ -12,6 +12,7 @@
 #include "saker/core/config.h"
 #include "saker/detection/detection.h"
 #include "saker/lidar/mount.h"
+#include "saker/lidar/sensor_info.h"
 #include "saker/motion/collision_checker.h"
 #include "saker/motion/motion.h"
 #include "saker/multirobot/merge_config.h"
@@ -30,12 +31,12 @@ struct RateConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("segmentation_hz", segmentation_hz, {0.5, 20}, "Hz",
-            "scans that get labels; 5 keeps a window of 1 s at five views and costs half a thread");
-    v.field("slam_hz", slam_hz, {0.1, 10}, "Hz",
-            "detection and SLAM cycles: the rate of the flown loop");
-    v.field("flight_segmentation_hz", flight_segmentation_hz, {0.5, 20}, "Hz",
-            "the same in flight, where one thread of two has other things to do");
+    v.setting("segmentation_hz", segmentation_hz, {0.5, 20}, "Hz",
+              "So many scans a second get labels in replay; 5 take half a thread.");
+    v.setting("slam_hz", slam_hz, {0.1, 10}, "Hz",
+              "So often detection and SLAM run, in flight and in replay.");
+    v.setting("flight_segmentation_hz", flight_segmentation_hz, {0.5, 20}, "Hz",
+              "So many scans a second get labels in flight, where other stages share two cores.");
   }
 };
 
@@ -103,12 +104,17 @@ struct Config {
   }
 };
 
-/// Where to look next, with the lidar as it is mounted.
-[[nodiscard]] inline active::ActiveConfig active_as_mounted(const Config& config) {
-  active::ActiveConfig active = config.active;
-  active.view.R_body_lidar = lidar::mount_pose(config.mount).linear();
-  return active;
-}
+/// Where to look next, with the lidar's beams as its metadata has them and as it is mounted, and
+/// sizes as the class table has them.
+[[nodiscard]] active::ActiveConfig active_as_flown(const Config& config,
+                                                   const lidar::SensorInfo& sensor);
+
+/// As `sensor_note` where measurements get fitted noise; else empty.
+[[nodiscard]] std::string noise_note(const Config& config, const std::string& sensor);
+
+/// Take-off and viewpoints below the geofence's upper end, as under a ceiling: the take-off swings
+/// over its height.
+[[nodiscard]] Config within_geofence(Config config);
 
 /// Up in the lidar's frame while the body is level.
 [[nodiscard]] inline Eigen::Vector3f up_as_mounted(const Config& config) {

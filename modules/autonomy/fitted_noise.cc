@@ -1,5 +1,7 @@
 #include "saker/autonomy/fitted_noise.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -129,6 +131,20 @@ std::shared_ptr<const uncertainty::Model> load_uncertainty(const UncertaintyConf
                                                            const objects::ClassTable& table) {
   const auto file = core::find_in_configs(config.model, "uncertainty.model");
   return std::make_shared<const uncertainty::Model>(uncertainty::Model::load(file, table));
+}
+
+std::string sensor_note(const uncertainty::Provenance& fitted, const std::string& sensor) {
+  const std::string& known = fitted.sensor;  // of several fits: all of them
+  if (!sensor.empty() && known.find(sensor) != std::string::npos) return {};
+  const std::string model = sensor.substr(0, sensor.find(' '));
+  std::string who = "an unknown sensor";
+  if (!sensor.empty()) who = "this " + sensor;
+  const bool same_model = !model.empty() && known.find(model + " ") != std::string::npos;
+  return fmt::format(
+      "uncertainty.model is fitted to {}, not to {}{}: used as it is, "
+      "slam.measurement_noise=fixed does without",
+      known.empty() ? "a sensor it does not name" : known, who,
+      same_model ? ", another mode of the same" : "");
 }
 
 FittedNoise::FittedNoise(const slam::SlamConfig& config,

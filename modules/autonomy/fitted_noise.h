@@ -15,15 +15,22 @@ struct UncertaintyConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("model", model, "",
-            "what a measurement is worth by where it is seen from (YAML), as `saker characterise "
-            "fit` makes it; as given, else in configs/");
+    v.setting("model", model, "",
+              "What a measurement is worth by where it is seen from (YAML, made by saker "
+              "characterise fit); a path as given, else below configs/.");
   }
 };
 
 /// Throws Error on a file that is missing or not valid.
 [[nodiscard]] std::shared_ptr<const uncertainty::Model> load_uncertainty(
     const UncertaintyConfig& config, const objects::ClassTable& table);
+
+/// A line for the log where the model was fitted to another sensor than the one that is there, or
+/// to one that is not known; empty where it is the same. The model is used all the same: what
+/// vehicles hide of themselves is alike for all sensors, and without it nothing takes biases off.
+/// \param sensor  "OS1-64 512x10", model and mode (lidar::name_and_mode); empty: not known
+[[nodiscard]] std::string sensor_note(const uncertainty::Provenance& fitted,
+                                      const std::string& sensor);
 
 /// What flights taught about measurements, between detection and SLAM: the fitted bias is taken off
 /// each one and its covariance of [x, y, length, width] (cuboid) or of the root's x and y

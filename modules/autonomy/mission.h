@@ -47,19 +47,28 @@ struct MissionConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("height_m", height_m, {1, 60}, "m", "of the take-off, above where it stands");
+    v.setting("height_m", height_m, {1, 60}, "m",
+              "The take-off goes to this height over the ground, within the geofence; the way home "
+              "has it, too.");
     v.field("height_tolerance_m", height_tolerance_m, {0.05, 5}, "m", "of the take-off");
-    v.field("settle_s", settle_s, {0, 60}, "s", "without a fault before arming");
-    v.field("preflight_s", preflight_s, {1, 3600}, "s", "for all that is needed to be there");
+    v.setting("settle_s", settle_s, {0, 60}, "s",
+              "Nothing may be wrong for so long before the motors are armed.");
+    v.setting("preflight_s", preflight_s, {1, 3600}, "s",
+              "All that a flight needs must be there within this time.");
     v.field("least_classified_share", least_classified_share, {0, 1}, "",
             "of the points of a scan on the ground: fewer, and segmentation does not work here");
-    v.field("takeoff_s", takeoff_s, {2, 300}, "s", "to reach the height; then land");
-    v.field("tour_s", tour_s, {1, 86400}, "s", "for all targets; then return");
-    v.field("return_s", return_s, {1, 3600}, "s", "for the way home; then land where it is");
-    v.field("landing_s", landing_s, {5, 600}, "s", "to touch down; then the command is repeated");
+    v.setting("takeoff_s", takeoff_s, {2, 300}, "s",
+              "The take-off must reach its height within this time, else it lands.");
+    v.setting("tour_s", tour_s, {1, 86400}, "s",
+              "All targets together get this time, then it returns.");
+    v.setting("return_s", return_s, {1, 3600}, "s",
+              "The way home may take this time, then it lands where it is.");
+    v.setting("landing_s", landing_s, {5, 600}, "s",
+              "It must touch down within this time, else the command is repeated.");
     v.field("gone_s", gone_s, {1, 600}, "s",
             "landing, neither vehicle nor lidar heard: nothing is left to be flown; then end");
-    v.field("most_holds", most_holds, {0, 1000}, "", "in one mission; the next one lands");
+    v.setting("most_holds", most_holds, {0, 1000}, "",
+              "A mission may hold so many times; the next time it lands.");
     v.group("command", command, "commands to the flight controller");
   }
 };

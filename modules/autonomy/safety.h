@@ -48,21 +48,32 @@ struct SafetyConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("vehicle_s", vehicle_s, {0.05, 10}, "s", "state of the vehicle: comes at 50 Hz");
-    v.field("lidar_s", lidar_s, {0.15, 10}, "s", "scan: five of a sensor of 10 Hz");
-    v.field("odometry_s", odometry_s, {0.15, 10}, "s", "registered scan: then hold");
-    v.field("odometry_lost_s", odometry_lost_s, {0.2, 10}, "s",
-            "registered scan: an inertial unit alone is 0.5 m off after 3 s; then no setpoints");
-    v.field("verdict_s", verdict_s, {0.15, 10}, "s", "verdict: comes at 10 Hz");
-    v.field("occupancy_s", occupancy_s, {0.6, 30}, "s", "occupancy block: comes at 2 Hz");
-    v.field("mapping_s", mapping_s, {0.6, 60}, "s", "map: comes at 2 Hz and is not flown by");
-    v.field("planning_s", planning_s, {1.5, 60}, "s", "answer of planning: comes at 1 Hz");
-    v.field("land_after_s", land_after_s, {0, 300}, "s", "hold, then land");
-    v.field("recover_s", recover_s, {0.1, 60}, "s", "without a cause, then the mission goes on");
-    v.field("battery_return_share", battery_return_share, {0, 1}, "", "of the charge: return");
-    v.field("battery_land_share", battery_land_share, {0, 1}, "", "of the charge: land here");
-    v.field("off_course_m", off_course_m, {0.2, 20}, "m",
-            "from the setpoint: the vehicle cannot do what it is told");
+    v.setting("vehicle_s", vehicle_s, {0.05, 10}, "s",
+              "The vehicle's state (50 Hz) may be silent for so long.");
+    v.setting("lidar_s", lidar_s, {0.15, 10}, "s", "The lidar (10 Hz) may be silent for so long.");
+    v.setting("odometry_s", odometry_s, {0.15, 10}, "s",
+              "After so long without a registered scan the vehicle holds.");
+    v.setting("odometry_lost_s", odometry_lost_s, {0.2, 10}, "s",
+              "After so long without a registered scan no setpoint is sent: the inertial unit "
+              "alone drifts.");
+    v.setting("verdict_s", verdict_s, {0.15, 10}, "s",
+              "The collision checker's verdict (10 Hz) may be silent for so long.");
+    v.setting("occupancy_s", occupancy_s, {0.6, 30}, "s",
+              "Its block of occupancy (2 Hz) may be silent for so long.");
+    v.setting("mapping_s", mapping_s, {0.6, 60}, "s", "The map (2 Hz) may be silent for so long.");
+    v.setting("planning_s", planning_s, {1.5, 60}, "s",
+              "Planning (1 Hz) may be silent for so long.");
+    v.setting("land_after_s", land_after_s, {0, 300}, "s",
+              "A vehicle that holds lands after so long.");
+    v.setting("recover_s", recover_s, {0.1, 60}, "s",
+              "A vehicle that holds goes on after so long without a cause.");
+    v.setting("battery_return_share", battery_return_share, {0, 1}, "",
+              "It returns at this share of the charge.");
+    v.setting("battery_land_share", battery_land_share, {0, 1}, "",
+              "It lands where it is at this share of the charge.");
+    v.setting(
+        "off_course_m", off_course_m, {0.2, 20}, "m",
+        "Farther than this from the setpoint, the vehicle cannot do what it is told and holds.");
   }
 };
 

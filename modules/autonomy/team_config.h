@@ -16,10 +16,12 @@ struct SurveyConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("place_sd_m", place_sd_m, {0.001, 10}, "m", "along each axis: by a tape");
-    v.field("heading_sd_deg", heading_sd_deg, {0.01, 45}, "°",
-            "set down by eye along a line on the ground");
-    v.field("level_sd_deg", level_sd_deg, {0.01, 10}, "°", "of an accelerometer's level");
+    v.setting("place_sd_m", place_sd_m, {0.001, 10}, "m",
+              "The take-off place was measured with this standard deviation along each axis.");
+    v.setting("heading_sd_deg", heading_sd_deg, {0.01, 45}, "°",
+              "The heading was set with this standard deviation.");
+    v.setting("level_sd_deg", level_sd_deg, {0.01, 10}, "°",
+              "The level was measured with this standard deviation.");
   }
 };
 
@@ -34,10 +36,11 @@ struct TakeoffConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("position_m", position_m, {-1e5, 1e5}, "m",
-            "x, y, z of the body in base, the team's frame, before it takes off; empty: nobody "
-            "measured it, the flight is planned without what others mapped");
-    v.field("yaw_deg", yaw_deg, {-360, 360}, "°", "heading there, from base's x axis");
+    v.setting("position_m", position_m, {-1e5, 1e5}, "m",
+              "Body at take-off in base, the team's frame: x, y, z; empty: not measured, what "
+              "others mapped is not planned with.");
+    v.setting("yaw_deg", yaw_deg, {-360, 360}, "°",
+              "Heading of the body there, from base's x axis.");
     survey.visit(v);
   }
 };
@@ -55,8 +58,8 @@ struct TeamConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v.group("takeoff", takeoff, "where this robot takes off");
-    v.field("lot_m", lot_m, {-1e5, 1e5}, "m",
-            "corners x1, y1, x2, y2, … of what this robot is to cover, in base; empty: everything");
+    v.setting("lot_m", lot_m, {-1e5, 1e5}, "m",
+              "Corners x1, y1, x2, y2, … in base of what this robot covers; empty: everything.");
     v.field("known_gate_m", known_gate_m, {0.1, 50}, "m",
             "between what was said of an object beforehand and what robots mapped: three "
             "deviations of a prior of 1 m");

@@ -38,7 +38,8 @@ std::vector<Eigen::Vector3d> moved(const SE3& T, const std::vector<Eigen::Vector
 Detection::Detection(const DetectionConfig& config, const objects::ClassTable& table)
     : config_(core::checked(config, "detection")),
       table_(table),
-      fitter_(make_fitter(config.vehicle)),
+      kinds_(vehicle_kinds(table)),
+      fitter_(make_fitter(config.vehicle, kinds_)),
       ground_(config.ground),
       surroundings_(config.surroundings) {}
 
@@ -134,7 +135,7 @@ void Detection::add_vehicle(const Indices& indices, int splits, objects::Detecti
                       static_cast<float>(window_.seconds[p.scan])});
   }
   const Sight sight{moved(T_local_level, window_.sensors), beams_, surroundings_, T_level_local};
-  const VehicleFit fit = fit_vehicle(points, sight, *fitter_, config_.vehicle);
+  const VehicleFit fit = fit_vehicle(points, sight, *fitter_, config_.vehicle, kinds_);
   if (fit.status == VehicleStatus::too_large || fit.status == VehicleStatus::parted) {
     split_vehicle(indices, splits, result);
   }

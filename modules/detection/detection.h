@@ -98,6 +98,7 @@ class Detection {
   DetectionConfig config_;
   objects::ClassTable table_;
   Window window_;
+  VehicleKinds kinds_;
   std::unique_ptr<const VehicleFitter> fitter_;
   Ground ground_;
   Surroundings surroundings_;

@@ -216,13 +216,15 @@ double log_sum(const std::vector<double>& values) {
 /// The faces' posterior under one heading.
 class Posterior {
  public:
-  Posterior(const Turned& t, const VehicleView& view, double highest_m, const FaceConfig& config)
+  Posterior(const Turned& t, const VehicleView& view, double highest_m, const FaceConfig& config,
+            const VehicleKinds& vehicle_kinds)
       : config_(config),
+        vehicle_kinds_(vehicle_kinds),
         range_(nearest_range(Eigen::Rotation2Dd(t.heading) *
                                  Eigen::Vector2d(t.extent[0].centre(), t.extent[1].centre()),
                              view.sight)),
         size_{size_density(t, 0, view), size_density(t, 1, view)} {
-    for (const VehicleKind& kind : vehicle_kinds()) {
+    for (const VehicleKind& kind : vehicle_kinds_) {
       const Kind moments{size_[0].with(kind.plan[0]), size_[1].with(kind.plan[1])};
       probability_.push_back(std::log(kind.weight) +
                              log_likelihood_of_top(view.top, kind, highest_m, config.top_sd_m) +
@@ -239,7 +241,7 @@ class Posterior {
   [[nodiscard]] double several() const {
     double sum = 0;
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (!vehicle_kinds()[k].one_vehicle) sum += probability_[k];
+      if (!vehicle_kinds_[k].one_vehicle) sum += probability_[k];
     }
     return sum;
   }
@@ -248,7 +250,7 @@ class Posterior {
   [[nodiscard]] Extent extent(int axis) const {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (vehicle_kinds()[k].one_vehicle) sum += probability_[k] * kinds_[k][axis].mean;
+      if (vehicle_kinds_[k].one_vehicle) sum += probability_[k] * kinds_[k][axis].mean;
     }
     const Eigen::Vector2d mean = sum / std::max(1 - several(), kNever);
     Eigen::Matrix2d covariance = about(mean, axis) + 1e-6 * Eigen::Matrix2d::Identity();
@@ -266,8 +268,8 @@ class Posterior {
   [[nodiscard]] Eigen::Matrix2d about(const Eigen::Vector2d& mean, int axis) const {
     Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (!vehicle_kinds()[k].one_vehicle || probability_[k] < kNever) continue;
-      const Normal prior = vehicle_kinds()[k].plan[axis];
+      if (!vehicle_kinds_[k].one_vehicle || probability_[k] < kNever) continue;
+      const Normal prior = vehicle_kinds_[k].plan[axis];
       const auto weak = size_[axis].with({prior.mean, prior.sd * std::sqrt(kPriorWindows)});
       const Eigen::Vector2d off = mean - weak.mean;
       sum += probability_[k] *
@@ -282,6 +284,7 @@ class Posterior {
   }
 
   const FaceConfig& config_;
+  const VehicleKinds& vehicle_kinds_;
   double range_;
   std::array<SizeDensity, 2> size_;
   std::vector<Kind> kinds_;
@@ -325,7 +328,8 @@ Plan FaceFitter::outline(const VehicleView& view) const {
 Plan FaceFitter::fit(const VehicleView& view, const Plan& outline) const {
   const Turned along = turned(view.places, view, outline.heading, config_);
   const Turned across = turned(view.places, view, outline.heading - M_PI / 2, config_);
-  const Posterior a(along, view, highest_m_, config_), b(across, view, highest_m_, config_);
+  const Posterior a(along, view, highest_m_, config_, kinds_),
+      b(across, view, highest_m_, config_, kinds_);
   if (a.log_evidence() >= b.log_evidence()) {
     return {along.heading, outline.heading_sd, with_doubt(a, b, false), a.several() > 0.5};
   }

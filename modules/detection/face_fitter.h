@@ -1,6 +1,7 @@
 #pragma once
 
 #include "saker/core/config.h"
+#include "saker/detection/size_prior.h"
 #include "saker/detection/vehicle_fitter.h"
 
 /// A vehicle's faces by one likelihood.
@@ -108,13 +109,15 @@ struct FaceConfig {
 class FaceFitter final : public VehicleFitter {
  public:
   /// \param highest_m  above the ground, above which points are not kept
-  FaceFitter(const FaceConfig& config, double highest_m) : config_(config), highest_m_(highest_m) {}
+  FaceFitter(const FaceConfig& config, double highest_m, VehicleKinds kinds)
+      : config_(config), highest_m_(highest_m), kinds_(std::move(kinds)) {}
   [[nodiscard]] Plan outline(const VehicleView& view) const override;
   [[nodiscard]] Plan fit(const VehicleView& view, const Plan& outline) const override;
 
  private:
   FaceConfig config_;
   double highest_m_;
+  VehicleKinds kinds_;
 };
 
 }  // namespace saker::detection

@@ -3,30 +3,46 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saker/core/error.h"
+
 namespace saker::detection {
 namespace {
 
-constexpr std::array<VehicleKind, 9> kKinds = {{
-    {"small car", 0.21, {{{3.85, 0.25}, {1.69, 0.06}}}, {1.48, 0.06}},
-    {"medium car", 0.21, {{{4.35, 0.20}, {1.79, 0.05}}}, {1.47, 0.05}},
-    {"large car", 0.12, {{{4.80, 0.20}, {1.85, 0.05}}}, {1.46, 0.05}},
-    {"suv", 0.21, {{{4.60, 0.25}, {1.87, 0.07}}}, {1.70, 0.08}},
-    {"van", 0.08, {{{5.10, 0.50}, {1.96, 0.10}}}, {2.05, 0.25}},
-    {"truck", 0.05, {{{7.00, 1.50}, {2.40, 0.20}}}, {3.00, 0.40}},
-    {"bus", 0.03, {{{12.0, 1.20}, {2.55, 0.05}}}, {3.10, 0.20}},
-    {"two cars", 0.05, {{{9.20, 1.00}, {1.85, 0.10}}}, {1.55, 0.13}, false},
-    {"car and more beside it", 0.04, {{{4.60, 0.60}, {2.90, 0.60}}}, {1.60, 0.20}, false},
-}};
+Normal normal_of(const std::vector<double>& mean_and_sd, const std::string& name) {
+  if (mean_and_sd.size() != 2) {
+    throw Error("objects.classes, kind \"" + name + "\": " + std::to_string(mean_and_sd.size()) +
+                " numbers for a size, expected mean and standard deviation");
+  }
+  return {mean_and_sd[0], mean_and_sd[1]};
+}
+
+void append_cuboids(const std::vector<objects::ObjectClass>& classes, VehicleKinds& kinds) {
+  for (const objects::ObjectClass& c : classes) {
+    if (c.shape != objects::Shape::cuboid) continue;
+    for (const objects::ObjectKind& kind : c.kinds) {
+      kinds.push_back({kind.name,
+                       kind.share,
+                       {normal_of(kind.length_m, kind.name), normal_of(kind.width_m, kind.name)},
+                       normal_of(kind.height_m, kind.name),
+                       kind.single});
+    }
+  }
+}
 
 }  // namespace
 
-std::span<const VehicleKind> vehicle_kinds() { return kKinds; }
+VehicleKinds vehicle_kinds(const objects::ClassTable& table) {
+  VehicleKinds kinds;
+  append_cuboids(table.classes, kinds);
+  if (kinds.empty()) append_cuboids(objects::shipped_classes(), kinds);
+  return kinds;
+}
 
-bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd) {
+bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd, const VehicleKinds& kinds) {
   const auto fits = [&](const Normal& measured, const Normal& kind) {
     return std::abs(measured.mean - kind.mean) < most_sd * std::hypot(measured.sd, kind.sd);
   };
-  return std::ranges::any_of(vehicle_kinds(), [&](const VehicleKind& kind) {
+  return std::ranges::any_of(kinds, [&](const VehicleKind& kind) {
     return kind.one_vehicle && fits(plan[0], kind.plan[0]) && fits(plan[1], kind.plan[1]);
   });
 }

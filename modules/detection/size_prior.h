@@ -1,16 +1,16 @@
 #pragma once
 
 #include <array>
-#include <span>
-#include <string_view>
+#include <string>
+#include <vector>
+
+#include "saker/objects/class_table.h"
 
 /// Sizes of vehicles by kind: what is known of a vehicle before it is seen.
 ///
-/// Small, medium and large cars are segments B, C and D to E of the European Commission's market
-/// definition; the others are sport utility vehicles, vans and pickups, rigid trucks, buses. Means
-/// and standard deviations are those of makers' published dimensions without mirrors; weights are
-/// rough shares of parked vehicles. The last two are no vehicle but what is as long or as wide as a
-/// truck and no higher than a car: two cars behind each other, or a car and a bush beside it.
+/// They are those of the class table (objects/class_table.h). Some are no vehicle but what is as
+/// long or as wide as a truck and no higher than a car: two cars behind each other, or a car and a
+/// bush beside it.
 namespace saker::detection {
 
 struct Normal {
@@ -19,18 +19,23 @@ struct Normal {
 };
 
 struct VehicleKind {
-  std::string_view name;
-  double weight;               ///< of all vehicles
+  std::string name;
+  double weight = 0;           ///< of all vehicles
   std::array<Normal, 2> plan;  ///< length, width
   Normal height;
   bool one_vehicle = true;  ///< false: what is to be split
 };
 
-[[nodiscard]] std::span<const VehicleKind> vehicle_kinds();
+using VehicleKinds = std::vector<VehicleKind>;
+
+/// Those of all cuboid classes; where none has kinds, those of shipped vehicles. Throws Error on
+/// one without mean and standard deviation of each size.
+[[nodiscard]] VehicleKinds vehicle_kinds(const objects::ClassTable& table);
 
 /// Whether some kind of vehicle is as long and wide as was measured, within `most_sd` standard
 /// deviations of the kind and of the measurement together.
-[[nodiscard]] bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd);
+[[nodiscard]] bool is_of_some_kind(const std::array<Normal, 2>& plan, double most_sd,
+                                   const VehicleKinds& kinds);
 
 /// Log-likelihood of the highest points of a vehicle of that kind. They lie at its top or, of a
 /// higher one, where points end (censored: Tobin, Econometrica 1958), or, rarely, anywhere below:

@@ -6,7 +6,6 @@
 
 #include "saker/core/statistics.h"
 #include "saker/detection/hull.h"
-#include "saker/detection/size_prior.h"
 
 namespace saker::detection {
 namespace {
@@ -120,23 +119,25 @@ VehicleStatus judge(const Plan& outline, double top, const Sight& sight,
   return parted(outline, sight, config.gap) ? VehicleStatus::parted : VehicleStatus::fitted;
 }
 
-bool of_some_kind(const Plan& plan) {
+bool of_some_kind(const Plan& plan, const VehicleKinds& kinds) {
   constexpr double kMostSd = 4;  // beyond, it is two beside each other: to be split
   const auto measured = [&](int k) {
     return Normal{plan.axis[k].size(), std::sqrt(plan.axis[k].covariance(1, 1))};
   };
-  return is_of_some_kind({measured(0), measured(1)}, kMostSd);
+  return is_of_some_kind({measured(0), measured(1)}, kMostSd, kinds);
 }
 
 }  // namespace
 
-std::unique_ptr<const VehicleFitter> make_fitter(const VehicleConfig& config) {
+std::unique_ptr<const VehicleFitter> make_fitter(const VehicleConfig& config,
+                                                 const VehicleKinds& kinds) {
   if (config.fitter == VehicleFitting::hull) return std::make_unique<HullFitter>(config.hull);
-  return std::make_unique<FaceFitter>(config.faces, config.highest_m);
+  return std::make_unique<FaceFitter>(config.faces, config.highest_m, kinds);
 }
 
 VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
-                       const VehicleFitter& fitter, const VehicleConfig& config) {
+                       const VehicleFitter& fitter, const VehicleConfig& config,
+                       const VehicleKinds& kinds) {
   VehicleFit fit;
   if (static_cast<int>(points.size()) < config.least_points) return fit;
   fit.motion = motion_of(points, config);
@@ -149,7 +150,7 @@ VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
   if (fit.status != VehicleStatus::fitted) return fit;
   const Plan plan = fitter.fit(view, outline);
   if (plan.several) fit.status = VehicleStatus::parted;
-  if (!of_some_kind(plan)) fit.status = VehicleStatus::too_large;
+  if (!of_some_kind(plan, kinds)) fit.status = VehicleStatus::too_large;
   if (fit.status != VehicleStatus::fitted) return fit;
   fit.cuboid = cuboid_of(plan, view.top);
   fit.covariance = covariance_of(plan, config.noise);

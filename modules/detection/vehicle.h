@@ -9,6 +9,7 @@
 #include "saker/detection/gap.h"
 #include "saker/detection/hull_fitter.h"
 #include "saker/detection/motion.h"
+#include "saker/detection/size_prior.h"
 #include "saker/detection/vehicle_fitter.h"
 #include "saker/objects/measurement.h"
 
@@ -104,9 +105,11 @@ struct VehicleFit {
   Motion motion;
 };
 
-[[nodiscard]] std::unique_ptr<const VehicleFitter> make_fitter(const VehicleConfig& config);
+[[nodiscard]] std::unique_ptr<const VehicleFitter> make_fitter(const VehicleConfig& config,
+                                                               const VehicleKinds& kinds);
 
 [[nodiscard]] VehicleFit fit_vehicle(const std::vector<BodyPoint>& points, const Sight& sight,
-                                     const VehicleFitter& fitter, const VehicleConfig& config);
+                                     const VehicleFitter& fitter, const VehicleConfig& config,
+                                     const VehicleKinds& kinds);
 
 }  // namespace saker::detection

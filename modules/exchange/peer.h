@@ -30,10 +30,10 @@ struct PeerConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("rate_kb_s", rate_kb_s, {1, 1e5}, "kB/s",
-            "sent to one counterpart at most: a tenth of a slow Wi-Fi link, commands share it");
-    v.field("budget_kb", budget_kb, {1, 1e9}, "kB",
-            "sent to one counterpart at most while it is in reach; a flight is 0.2 MB");
+    v.setting("rate_kb_s", rate_kb_s, {1, 1e5}, "kB/s",
+              "Nobody is sent more a second; 100 are a tenth of a slow Wi-Fi link.");
+    v.setting("budget_kb", budget_kb, {1, 1e9}, "kB",
+              "Nobody is sent more while in reach; a flight is 0.2 MB.");
     v.field("round_chunks", round_chunks, {1, 256}, "",
             "chunks sent before an acknowledgement is awaited: one costs a twentieth of a chunk");
     v.field("answer_delay_s", answer_delay_s, {0, 0.5}, "s",

@@ -14,9 +14,10 @@ struct MountConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("position_m", position_m, {-5, 5}, "m", "of the lidar's origin in body: x, y, z");
-    v.field("rotation_deg", rotation_deg, {-180, 180}, "°",
-            "roll, pitch, yaw of the lidar in body: about z, then y, then x");
+    v.setting("position_m", position_m, {-5, 5}, "m",
+              "Place of the lidar's origin in body: x forward, y left, z up.");
+    v.setting("rotation_deg", rotation_deg, {-180, 180}, "°",
+              "Roll, pitch and yaw of the lidar in body, applied about z, then y, then x.");
   }
 };
 

@@ -19,6 +19,7 @@ class OusterCapture : public ScanSource {
 
   [[nodiscard]] std::optional<Frame> next() override;
   [[nodiscard]] SourceCounters counters() const override;
+  [[nodiscard]] std::string sensor_name() const override { return name_and_mode(info()); }
 
   /// The frame with all that was decoded.
   [[nodiscard]] std::optional<OusterStream::Item> next_item();

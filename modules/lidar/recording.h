@@ -56,6 +56,9 @@ class ScanSource {
   /// What a user has to know about the recording as a whole, as a line; empty when there is
   /// nothing.
   [[nodiscard]] virtual std::string note() const { return {}; }
+
+  /// Model and mode of the sensor, "OS1-64 512x10" (sensor_info.h); empty where it does not say.
+  [[nodiscard]] virtual std::string sensor_name() const { return {}; }
 };
 
 enum class RecordingFormat { kAutomatic, kKitti, kOuster };

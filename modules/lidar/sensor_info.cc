@@ -103,6 +103,13 @@ SensorInfo SensorInfo::make_os1(int rows, int columns, PacketProfile profile) {
   return info;
 }
 
+std::string name_and_mode(const SensorInfo& info) {
+  std::string name = info.product_line;
+  if (name.starts_with("OS-")) name.erase(2, 1);  // metadata has "OS-1-64"
+  return name + " " + std::to_string(info.columns) + "x" +
+         std::to_string(std::lround(info.frame_rate_hz));
+}
+
 void check(const SensorInfo& info, const std::string& where) {
   check_size(info, where);
   check_rows(info.beam_altitude_deg, info, where, "beam_altitude_angles");

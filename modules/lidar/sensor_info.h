@@ -69,6 +69,9 @@ struct SensorInfo {
   [[nodiscard]] double column_period_s() const { return 1 / (frame_rate_hz * columns); }
 };
 
+/// "OS1-64 512x10": model and mode as the vendor names them, columns by revolutions a second.
+[[nodiscard]] std::string name_and_mode(const SensorInfo& info);
+
 /// Throws Error that names the first value which does not fit the others; `where` is what the
 /// message begins with.
 void check(const SensorInfo& info, const std::string& where);

@@ -19,16 +19,16 @@ struct ClearanceConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("robot_radius_m", robot_radius_m, {0.05, 2}, "m",
-            "ball around the body's centre that holds frame and propellers");
-    v.field("margin_m", margin_m, {0, 2}, "m",
-            "kept from what is occupied or unknown: tracking error, odometry, half a cell");
+    v.setting("robot_radius_m", robot_radius_m, {0.05, 2}, "m",
+              "A ball of this radius around the body's centre holds frame and propellers.");
+    v.setting("margin_m", margin_m, {0, 2}, "m",
+              "The ball keeps this far from what is occupied or unknown.");
     v.field("planning_slack_m", planning_slack_m, {0, 1}, "m",
             "more than that when a path is planned, so that noise in the map does not stop it");
-    v.field("takeoff_radius_m", takeoff_radius_m, {0, 10}, "m",
-            "of the upright column over the take-off point in which the unknown is free: from its "
-            "edge on the sensor's vertical field of view covers the body");
-    v.field("takeoff_height_m", takeoff_height_m, {0, 50}, "m", "of that column");
+    v.setting("takeoff_radius_m", takeoff_radius_m, {0, 10}, "m",
+              "Unknown space counts as free in an upright column of this radius over the take-off "
+              "point.");
+    v.setting("takeoff_height_m", takeoff_height_m, {0, 50}, "m", "That column is so high.");
     v.field("vehicle_ball_m", vehicle_ball_m, {0, 10}, "m",
             "around the vehicle the unknown is free: it is there, and sees nothing so near");
   }

@@ -15,11 +15,12 @@ struct GeofenceConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("lowest_m", lowest_m, {-100, 1000}, "m",
-            "least height of the body's centre above the take-off point");
-    v.field("highest_m", highest_m, {-100, 1000}, "m", "greatest height above it");
-    v.field("polygon_m", polygon_m, {-1e5, 1e5}, "m",
-            "corners x1, y1, x2, y2, … around the area, from the take-off point");
+    v.setting("lowest_m", lowest_m, {-100, 1000}, "m",
+              "The body's centre stays above this height over the take-off point.");
+    v.setting("highest_m", highest_m, {-100, 1000}, "m",
+              "The body's centre stays below this height over the take-off point.");
+    v.setting("polygon_m", polygon_m, {-1e5, 1e5}, "m",
+              "Corners x1, y1, x2, y2, … of the area that is flown in, from the take-off point.");
   }
 };
 

@@ -16,17 +16,18 @@ struct LimitsConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("max_speed", max_speed, {0.1, 20}, "m/s",
-            "a stop from it fits well inside what the sensor sees");
-    v.field("max_climb_speed", max_climb_speed, {0.1, 10}, "m/s",
-            "up or down: descending faster, a rotor meets its own wake");
-    v.field("max_acceleration", max_acceleration, {0.2, 20}, "m/s²",
-            "tilts the body by 12°, which the sensor's field of view forgives");
-    v.field("max_jerk", max_jerk, {1, 200}, "m/s³", "how fast the body may change its tilt");
-    v.field("max_yaw_rate_deg", max_yaw_rate_deg, {1, 360}, "°/s",
-            "what scan registration follows with ease");
-    v.field("max_yaw_acceleration_deg", max_yaw_acceleration_deg, {1, 3600}, "°/s²",
-            "drag torque of the rotors alone turns the body");
+    v.setting("max_speed", max_speed, {0.1, 20}, "m/s",
+              "No trajectory is faster; a stop from it fits well inside what the sensor sees.");
+    v.setting("max_climb_speed", max_climb_speed, {0.1, 10}, "m/s",
+              "No trajectory climbs or descends faster: a rotor must not meet its own wake.");
+    v.setting("max_acceleration", max_acceleration, {0.2, 20}, "m/s²",
+              "No trajectory accelerates more; 2 m/s² tilt the body by 12°.");
+    v.setting("max_jerk", max_jerk, {1, 200}, "m/s³",
+              "No trajectory changes its acceleration, and so the body's tilt, faster.");
+    v.setting("max_yaw_rate_deg", max_yaw_rate_deg, {1, 360}, "°/s",
+              "No trajectory turns faster: scans must still be registered.");
+    v.setting("max_yaw_acceleration_deg", max_yaw_acceleration_deg, {1, 3600}, "°/s²",
+              "No trajectory speeds its turn up more: only the rotors' drag turns the body.");
     v.field("step_s", step_s, {0.01, 0.2}, "s",
             "between states of a trajectory: between them a cubic errs by less than 1 mm");
   }

@@ -370,7 +370,7 @@ objects::ObjectMap MultiRobotSlam::reported_map() const {
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const slam::Landmark& landmark = landmarks_[i];
     Eigen::MatrixXd& covariance = map.objects[i].covariance;
-    widen(covariance, landmark, all, slam_);
+    widen(covariance, landmark, all, slam_, table_);
     covariance.diagonal() += common_variances(landmark.model, slam_.noise);
   }
   return map;

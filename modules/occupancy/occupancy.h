@@ -27,11 +27,12 @@ struct OccupancyConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("resolution_m", resolution_m, {0.05, 1}, "m", "edge of a cell");
-    v.field("range_m", range_m, {1, 50}, "m",
-            "points farther away only clear, up to here: cost grows with its cube");
-    v.field("body_radius_m", body_radius_m, {0, 5}, "m",
-            "points nearer to the sensor are the vehicle's own");
+    v.setting("resolution_m", resolution_m, {0.05, 1}, "m",
+              "A cell of the occupancy map has edges of this length.");
+    v.setting("range_m", range_m, {1, 50}, "m",
+              "Points farther away clear space only up to here; cost grows with its cube.");
+    v.setting("body_radius_m", body_radius_m, {0, 5}, "m",
+              "Points nearer to the sensor are taken for the vehicle's own.");
     v.field("hit_probability", hit_probability, {0.5, 0.97}, "",
             "of being occupied, of a cell with a point in it");
     v.field("miss_probability", miss_probability, {0.03, 0.5}, "",
@@ -43,8 +44,8 @@ struct OccupancyConfig {
     v.field("keep_radius_m", keep_radius_m, {10, 1000}, "m",
             "what is farther from the sensor is dropped");
     v.field("drop_every_s", drop_every_s, {0, 60}, "s", "how often");
-    v.field("max_nodes", max_nodes, {10000, 5e7}, "",
-            "ceiling of the octree: beyond it the radius shrinks; 45 B each");
+    v.setting("max_nodes", max_nodes, {10000, 5e7}, "",
+              "The octree has at most so many nodes of 45 B; beyond, what is far away is dropped.");
   }
 };
 

@@ -34,9 +34,10 @@ struct OdometryConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("min_range_m", min_range_m, {0, 20}, "m", "nearer points are the vehicle's own");
-    v.field("max_range_m", max_range_m, {5, 500}, "m",
-            "farther points are too sparse to make planes");
+    v.setting("min_range_m", min_range_m, {0, 20}, "m",
+              "Points nearer than this are taken for the vehicle's own and left out.");
+    v.setting("max_range_m", max_range_m, {5, 500}, "m",
+              "Points farther than this are left out: they are too sparse to make planes.");
     v.field("map_sample_m", map_sample_m, {0.02, 5}, "m",
             "one point a voxel of this size goes into the map");
     v.field("registration_sample_m", registration_sample_m, {0.05, 10}, "m",

@@ -17,9 +17,9 @@ struct SegmentationConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field(
-        "model", model, "",
-        "weights (ONNX), with their description beside them (.yaml); as given, else in configs/");
+    v.setting("model", model, "",
+              "Weights of the network (ONNX), with their description beside them (.yaml); a path "
+              "as given, else below configs/.");
   }
 };
 

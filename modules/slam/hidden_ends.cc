@@ -1,12 +1,15 @@
 #include "saker/slam/hidden_ends.h"
 
 #include <cmath>
+#include <limits>
 
 #include "saker/objects/stated_length.h"
 #include "saker/slam/model_algebra.h"
 
 namespace saker::slam {
 namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// An end's error with its tail: value, slope, and value over what came in.
 struct Tail {
@@ -46,7 +49,9 @@ HiddenEnds::HiddenEnds(const objects::Cuboid& measured, const Matrix9d& covarian
                        const HiddenEndConfig& config)
     : longer_(longer_axis(measured)),
       most_m_(config.most_m),
-      scale_(config.sds * end_variances(covariance, longer_).cwiseSqrt()) {}
+      scale_(Eigen::Vector2d::Constant(kNever)) {
+  if (config.enabled) scale_ = config.sds * end_variances(covariance, longer_).cwiseSqrt();
+}
 
 HiddenEnds::Softened HiddenEnds::operator()(const Vector9d& error) const {
   Softened softened{error, Matrix9d::Identity(), Matrix9d::Identity()};

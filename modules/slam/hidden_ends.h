@@ -6,11 +6,13 @@
 namespace saker::slam {
 
 struct HiddenEndConfig {
+  bool enabled = true;
   double sds = 1;
   double most_m = 1.5;
 
   template <class Visitor>
   void visit(Visitor& v) {
+    v.field("enabled", enabled, "", "whether ends may be hidden; else equation 1 is as it is");
     v.field("sds", sds, {0.1, 1e9}, "",
             "standard deviations by which an end may lie farther out than it was measured before "
             "it counts as hidden: windows that lose an end lose half a metre and more");

@@ -299,11 +299,11 @@ bool believed(const Landmark& landmark, const LandmarkConfig& config) {
   return ends_known && stands(landmark, config);
 }
 
-bool moves(const Landmark& landmark, const LandmarkConfig& config) {
+bool moves(const Landmark& landmark, double footprint_m, const LandmarkConfig& config) {
   if (landmark.recent.size() < 2) return false;
   const SE3 T_cuboid_world = std::get<Cuboid>(landmark.model).pose.inverse();
   std::array<std::vector<double>, 2> low, high;
-  double longest = config.vehicle_length_m;
+  double longest = footprint_m;
   for (const Footprint& footprint : landmark.recent) {
     const Eigen::Vector3d centre = T_cuboid_world * footprint.centre;
     for (const int axis : {0, 1}) {

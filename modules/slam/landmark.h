@@ -27,7 +27,6 @@ struct LandmarkConfig {
   int two_windows = 3;
   double two_share = 0.2;
   double moving_distance_m = 1.0;
-  double vehicle_length_m = 5;
   double sure_sd = 1.4;
   double most_length_sd_m = 0.3;
   int most = 1000;
@@ -69,8 +68,6 @@ struct LandmarkConfig {
             "fronts seem one, but one vehicle seldom seems two");
     v.field("moving_distance_m", moving_distance_m, {0.2, 20}, "m",
             "by which an object's measured footprints reach beyond one object's length: it moves");
-    v.field("vehicle_length_m", vehicle_length_m, {2, 20}, "m",
-            "length that footprints of one parked vehicle cover together, seen from all sides");
     v.field("sure_sd", sure_sd, {0, 10}, "",
             "standard deviations by which a part that was not seen may lie nearer");
     v.field("most_length_sd_m", most_length_sd_m, {0.01, 10}, "m",
@@ -222,7 +219,9 @@ void remember(Landmark& landmark, const Observation& observation);
 /// Whether the footprints that were measured lately cover together more than one object: it moves.
 /// Of one that was measured for long, a single window may have an end wrong.
 /// What is seen of a parked vehicle wanders too, as the robot passes, but stays within the vehicle.
-[[nodiscard]] bool moves(const Landmark& landmark, const LandmarkConfig& config);
+/// \param footprint_m  of its class (objects/class_table.h)
+[[nodiscard]] bool moves(const Landmark& landmark, double footprint_m,
+                         const LandmarkConfig& config);
 
 /// Whether the last footprint stands where it stood before others stood elsewhere: what was taken
 /// for one object are two.

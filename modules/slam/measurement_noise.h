@@ -18,10 +18,10 @@ struct MeasurementNoiseConfig {
   double shared_place = 2.5;
   double shared_length = 3;
   double shared_width = 1;
+  bool share_ends = true;
   double shared_end_per_m = 5;
   double fitted_end_sd_m = 0.28;
   double fitted_width_sd_m = 0.2;
-  double fitted_class_width_m = 0.12;
   double shared_root = 4;
   double shared_radius = 80;
   double shared_radius_cells = 10;
@@ -57,6 +57,8 @@ struct MeasurementNoiseConfig {
         "no side shows is missed in all of them; by the NEES of eight flights");
     v.field("shared_length", shared_length, {1, 10000}, "", "the same of its length");
     v.field("shared_width", shared_width, {1, 10000}, "", "the same of its width");
+    v.field("share_ends", share_ends, "",
+            "whether windows share what they say wrongly of a vehicle's end");
     v.field("shared_end_per_m", shared_end_per_m, {0, 1000}, "1/m",
             "what windows share of a vehicle's end: this part of what the second best one states, "
             "at most all of it, for each metre stated; no end is known better. An end that some "
@@ -71,9 +73,6 @@ struct MeasurementNoiseConfig {
             "standard deviation that windows state of a vehicle's width where they show both of "
             "its sides; of others the hidden side lies anywhere within what they state; equal to "
             "fit.whole_width_sd_m, from which on the fit takes the width for not measured");
-    v.field("fitted_class_width_m", fitted_class_width_m, {0.01, 10}, "m",
-            "by which a width is known that no view measured: its kind's. Only narrows what maps, "
-            "those that are planned with, too, say of widths");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

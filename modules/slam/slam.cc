@@ -64,20 +64,20 @@ void limit_to_best(Eigen::MatrixXd& covariance, const Landmark& landmark) {
 /// By its name, as far as its cells agree, as wide as what windows share asks for, and an end that
 /// none looked at no better known than what they share of it; its width no worse than its class's,
 /// where cells count. Empty where nothing was measured.
-Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
-                        const SlamConfig& config) {
+Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given, const SlamConfig& config,
+                        const objects::ClassTable& table) {
   if (given.covariance.size() == 0) return {};
   const Eigen::MatrixXd scattered =
       given.scatter.asDiagonal() * given.covariance * given.scatter.asDiagonal();
   Eigen::MatrixXd named =
       widened(landmark.model, named_covariance(landmark, scattered), shared_noise(config));
   const Eigen::Vector2d ends = named_ends(landmark);
-  if (is_cuboid(landmark.model) && ends.allFinite()) {
+  if (config.noise.share_ends && is_cuboid(landmark.model) && ends.allFinite()) {
     const Eigen::Array2d shares = (config.noise.shared_end_per_m * ends.array()).min(1);
     raise_end_variances(named, 0, (shares * ends.array()).square());
   }
   if (is_cuboid(landmark.model) && config.measurement_noise == NoiseSource::fitted) {
-    return with_class_width(named, config.noise.fitted_class_width_m);
+    return with_class_width(named, table[class_of(landmark, table)].width_sd_m);
   }
   return named;
 }
@@ -85,10 +85,11 @@ Eigen::MatrixXd widened(const Landmark& landmark, const GivenPoses& given,
 }  // namespace
 
 void widen(Eigen::MatrixXd& covariance, const Landmark& landmark, Chains chains,
-           const SlamConfig& config) {
+           const SlamConfig& config, const objects::ClassTable& table) {
   const GivenPoses given = given_poses(landmark, chains, config.graph);
   if (given.covariance.rows() != covariance.rows()) return;  // nothing was measured
-  covariance += widened(landmark, given, config) - named_covariance(landmark, given.covariance);
+  covariance +=
+      widened(landmark, given, config, table) - named_covariance(landmark, given.covariance);
 }
 
 Slam::Slam(const SlamConfig& config, const objects::ClassTable& table)
@@ -214,16 +215,19 @@ void Slam::expect(const std::vector<int>& measured) {
   }
 }
 
+bool Slam::wanders(const Landmark& landmark) const {
+  return moves(landmark, table_[class_of(landmark, table_)].footprint_m, config_.landmarks);
+}
+
 void Slam::review(SlamUpdate& report) {
   report.merged = merge_duplicates(landmarks_, config_.duplicates, config_.landmarks);
   const auto of_two = [this](const Landmark& landmark) {
-    const bool wanders = moves(landmark, config_.landmarks);
     return !landmark.moving && (lies_across_two(landmark, config_.landmarks) ||
-                                (wanders && comes_back(landmark, config_.landmarks)));
+                                (wanders(landmark) && comes_back(landmark, config_.landmarks)));
   };
   report.removed += static_cast<int>(std::erase_if(landmarks_, of_two));
   for (Landmark& landmark : landmarks_) {
-    if (landmark.moving || !moves(landmark, config_.landmarks)) continue;
+    if (landmark.moving || !wanders(landmark)) continue;
     landmark.moving = true;
     ++report.removed;
   }
@@ -260,7 +264,7 @@ objects::ObjectMap Slam::map_given_poses() const {
   std::vector<Keyframe> poses = trajectory_.keyframes();
   const Chain own{&poses};
   return map_with([&](const Landmark& landmark) {
-    return widened(landmark, given_poses(landmark, {&own, 1}, config_.graph), config_);
+    return widened(landmark, given_poses(landmark, {&own, 1}, config_.graph), config_, table_);
   });
 }
 
@@ -298,13 +302,13 @@ objects::ObjectMap Slam::reported_map() const {
     return *std::ranges::find(landmarks_, object.id, &Landmark::id);
   };
   for (objects::MapObject& object : map.objects) {
-    widen(object.covariance, landmark_of(object), {&own, 1}, config_);
+    widen(object.covariance, landmark_of(object), {&own, 1}, config_, table_);
   }
   for (objects::MapObject& object : map.incomplete) {
     const Landmark& landmark = landmark_of(object);
     GivenPoses given = given_poses(landmark, {&own, 1}, config_.graph);
     limit_to_best(given.covariance, landmark);
-    object.covariance = widened(landmark, given, config_);
+    object.covariance = widened(landmark, given, config_, table_);
   }
   return map;
 }

@@ -48,9 +48,9 @@ struct SlamConfig {
     v.group("graph", graph, "the optimisation");
     v.group("ground", ground, "the map's local ground planes");
     v.group("history", history, "what other robots are told");
-    v.field("measurement_noise", measurement_noise, "",
-            "of measurements: fitted to flights (uncertainty.model), by where they are taken from, "
-            "or fixed: what detection says");
+    v.setting("measurement_noise", measurement_noise, "",
+              "Covariances of measurements come from uncertainty.model (fitted) or from detection "
+              "alone (fixed).");
     v.group("noise", noise, "what is added to the covariances of detection");
   }
 };
@@ -59,7 +59,7 @@ struct SlamConfig {
 /// takes for independent: of the measurements alone, not of the poses. With fitted noise a width
 /// that was not measured is known by its class.
 void widen(Eigen::MatrixXd& covariance, const Landmark& landmark, Chains chains,
-           const SlamConfig& config);
+           const SlamConfig& config, const objects::ClassTable& table);
 
 /// What the stage reads in a cycle.
 struct SlamInput {
@@ -166,6 +166,7 @@ class Slam {
   void take(Landmark& landmark, const Candidate& candidate);
   void expect(const std::vector<int>& measured);  ///< counts what was in view and not measured
   void review(SlamUpdate& report);
+  [[nodiscard]] bool wanders(const Landmark& landmark) const;
   void optimise(const core::Budget& budget, SlamUpdate& report);
 
   SlamConfig config_;

@@ -23,6 +23,7 @@ namespace saker::uncertainty {
 struct FitConfig {
   std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
+  bool every_window = false;
   double whole_length_sd_m = 0.25;
   double whole_width_sd_m = 0.2;
   int least_objects = 10;
@@ -37,6 +38,8 @@ struct FitConfig {
     v.field("range_edges_m", range_edges_m, {0, 1000}, "m", "of the intervals of range, ascending");
     v.field("sectors", sectors, {2, 36}, "",
             "of the viewing angle between front and back, for cuboids: 30 degrees each");
+    v.field("every_window", every_window, "",
+            "whether every window counts, as in the paper, whatever of an object it showed");
     v.field("whole_length_sd_m", whole_length_sd_m, {0, 100}, "m",
             "a cuboid whose measurement states a worse length did not show both its ends, which "
             "detection gives up to 0.25 m, or 0.35 m and more");
@@ -52,6 +55,12 @@ struct FitConfig {
     v.group("errors", errors, "biases and covariances");
     v.group("confidence", confidence, "the multilayer perceptron");
   }
+
+  static constexpr double kAnySd = 100;  ///< m: no measurement states more
+  [[nodiscard]] double most_length_sd_m() const {
+    return every_window ? kAnySd : whole_length_sd_m;
+  }
+  [[nodiscard]] double most_width_sd_m() const { return every_window ? kAnySd : whole_width_sd_m; }
 };
 
 /// One model a class that has samples, by ascending class. Throws Error where a class has too few

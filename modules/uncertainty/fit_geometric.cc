@@ -79,7 +79,7 @@ std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals&
                                const FitConfig& config) {
   std::map<std::tuple<std::string, int, int>, std::vector<const Sample*>> grouped;
   for (const Sample& sample : samples) {
-    if (!intervals.contains(sample.view.range) || !is_whole(sample, config.whole_length_sd_m))
+    if (!intervals.contains(sample.view.range) || !is_whole(sample, config.most_length_sd_m()))
       continue;
     grouped[{sample.recording, sample.object_id, intervals.cell_of(sample.view)}].push_back(
         &sample);
@@ -93,7 +93,7 @@ std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals&
     if (object < 0 || current != last) ++object;
     last = current;
     const View& first = own.front()->view;
-    Draw draw = mean_draw(own, parity, config.whole_width_sd_m);
+    Draw draw = mean_draw(own, parity, config.most_width_sd_m());
     draw.object = object;
     draw.interval = intervals.of(first);
     draw.mirrored = intervals.mirrored(first);
@@ -355,7 +355,7 @@ GeometricModel fit_geometric(std::span<const Sample> samples, const Intervals& i
     best = with;
   }
   Parts parts = fit_parts(draws, intervals, kept, config);
-  parts.whole_length_sd_m = config.whole_length_sd_m;
+  parts.whole_length_sd_m = config.most_length_sd_m();
   share_out(parts, samples, config.errors);
   return GeometricModel(std::move(parts));
 }

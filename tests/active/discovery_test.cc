@@ -301,12 +301,12 @@ TEST(Discovery, SweepOfAnEmptyPlaceEndsWithoutTargets) {
 }
 
 TEST(Discovery, SweepIsDoneNeverOrAlwaysWhenConfigured) {
-  ActiveConfig never;
+  ActiveConfig never{.policy = PolicyName::visit};
   never.discovery.sweep.when = SweepWhen::never;
   Flight idle(kPark, {}, never);
   EXPECT_TRUE(idle.policy.idle());
   EXPECT_EQ(idle.fly(), 0);
-  ActiveConfig always;
+  ActiveConfig always{.policy = PolicyName::visit};
   always.discovery.sweep.when = SweepWhen::always;
   Flight flight(kPark, map_of({kPark[0]}), always);
   EXPECT_LT(flight.fly(), kLong);

@@ -16,6 +16,7 @@ const core::Budget kBudget = core::Budget::iterations(1000);
 
 /// Policy `visit` as a heuristic: two opposite sides, oblique where it can be.
 inline ActiveConfig two_sided(ActiveConfig config = {}) {
+  config.policy = PolicyName::visit;
   config.visit_policy.sides = 2;
   config.visit_policy.oblique_worth_m = 10;
   return config;

@@ -13,16 +13,18 @@ using made::everywhere;
 const objects::ClassTable kTable;
 
 TEST(Policy, ConfigurationThatCannotBeIsRefused) {
-  ActiveConfig crowded;
+  const ActiveConfig valid{.policy = PolicyName::visit};
+  EXPECT_NO_THROW((void)make_policy(valid, kTable, {}, everywhere));
+  ActiveConfig crowded = valid;
   crowded.visit_policy.sides = 3;  // and 120° apart: the third may find no room
   EXPECT_THROW((void)make_policy(crowded, kTable, {}, everywhere), Error);
-  ActiveConfig hasty;
+  ActiveConfig hasty = valid;
   hasty.goals.standing_s = hasty.visit_policy.dwell_s;
   EXPECT_THROW((void)make_policy(hasty, kTable, {}, everywhere), Error);
-  ActiveConfig blind;
+  ActiveConfig blind = valid;
   blind.view.nearest_m = blind.view.farthest_m;
   EXPECT_THROW((void)make_policy(blind, kTable, {}, everywhere), Error);
-  ActiveConfig out_of_bounds;
+  ActiveConfig out_of_bounds = valid;
   out_of_bounds.viewpoints.bearings = 0;
   EXPECT_THROW((void)make_policy(out_of_bounds, kTable, {}, everywhere), Error);
 }
@@ -38,7 +40,7 @@ TEST(Policy, ByInformationGainIsRefusedWithoutAModelOrWithOneThatLacksATargetCla
 }
 
 TEST(Policy, ThatWouldNeverLookIsRefused) {
-  ActiveConfig config;
+  ActiveConfig config{.policy = PolicyName::visit};
   config.paper.enough_entropy = 0;
   EXPECT_THROW((void)make_policy(config, kTable, {}, everywhere), Error);
 }

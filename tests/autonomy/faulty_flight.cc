@@ -110,6 +110,7 @@ std::shared_ptr<const occupancy::OccupancyGrid> MortalChecker::take_grid() {
 FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
     : vehicle_(scenario(std::move(events)), 1), plant(vehicle_), checker(config_) {
   const simulation::MissionFence& fence = vehicle_.site().fence;
+  config_.active.policy = active::PolicyName::visit;
   config_.active.visit_policy.sides = 2;  // long legs
   config_.active.visit_policy.oblique_worth_m = 10;
   config_.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};

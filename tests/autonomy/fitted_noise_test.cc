@@ -285,6 +285,27 @@ TEST(FittedNoise, AWidthThatTheFitTakesForNotMeasuredHasAHiddenSide) {
             slam::MeasurementNoiseConfig().fitted_width_sd_m);
 }
 
+TEST(SensorNote, SaysWhereTheModelIsOfAnotherSensor) {
+  uncertainty::Provenance provenance;
+  provenance.sensor = "OS1-64 512x10";
+  EXPECT_EQ(sensor_note(provenance, "OS1-64 512x10"), "");
+  const std::string mode = sensor_note(provenance, "OS1-64 1024x10");
+  EXPECT_NE(mode.find("another mode of the same"), std::string::npos) << mode;
+  const std::string model = sensor_note(provenance, "OS2-128 512x10");
+  EXPECT_NE(model.find("fitted to OS1-64 512x10, not to this OS2-128 512x10: used"),
+            std::string::npos)
+      << model;
+  EXPECT_NE(sensor_note(provenance, "").find("unknown sensor"), std::string::npos);
+}
+
+TEST(SensorNote, IsOfFittedNoiseAlone) {
+  Config config;
+  EXPECT_EQ(noise_note(config, "OS1-64 512x10"), "");
+  EXPECT_NE(noise_note(config, "OS2-128 512x10"), "");
+  config.slam.measurement_noise = slam::NoiseSource::fixed;
+  EXPECT_EQ(noise_note(config, "OS2-128 512x10"), "");
+}
+
 TEST(FittedNoise, NeedsAModel) {
   EXPECT_THROW(FittedNoise(source(slam::NoiseSource::fitted), nullptr), Error);
   Config config;

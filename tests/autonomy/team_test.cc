@@ -11,7 +11,7 @@ namespace saker::autonomy {
 namespace {
 
 const objects::ClassTable kTable;
-const slam::SlamConfig kSlam;
+const slam::SlamConfig kSlam{.measurement_noise = slam::NoiseSource::fixed};
 const active::TargetsConfig kTargets;
 const core::Budget kPlenty = core::Budget::iterations(kMergeIterations);
 constexpr double kWell = 0.05, kBadly = 0.6;  // m: sd of a measured size

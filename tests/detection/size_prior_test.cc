@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <string>
+
+#include "saker/core/error.h"
 
 namespace saker::detection {
 namespace {
 
 constexpr double kHighest = 2.6;  // m
 
-std::string_view likeliest(double top) {
-  const auto kinds = vehicle_kinds();
-  return std::ranges::max_element(kinds, {},
+const VehicleKinds kKinds = vehicle_kinds({});
+
+std::string likeliest(double top) {
+  return std::ranges::max_element(kKinds, {},
                                   [&](const VehicleKind& kind) {
                                     return log_likelihood_of_top(top, kind, kHighest, 0.06);
                                   })
@@ -22,8 +25,31 @@ std::string_view likeliest(double top) {
 
 TEST(SizePrior, WeightsAreThoseOfAllVehicles) {
   double sum = 0;
-  for (const VehicleKind& kind : vehicle_kinds()) sum += kind.weight;
+  for (const VehicleKind& kind : kKinds) sum += kind.weight;
   EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+TEST(SizePrior, KindsAreThoseOfTheCuboidClasses) {
+  objects::ClassTable table;
+  table.classes.push_back({.name = "bin", .shape = objects::Shape::cuboid, .label_ids = {1}});
+  EXPECT_EQ(vehicle_kinds(table).size(), kKinds.size());
+  table.classes.back().kinds = {
+      {.name = "wheeled", .length_m = {1.2, 0.1}, .width_m = {0.9, 0.1}, .height_m = {1.1, 0.1}}};
+  ASSERT_EQ(vehicle_kinds(table).size(), kKinds.size() + 1);
+  EXPECT_EQ(vehicle_kinds(table).back().plan[0].mean, 1.2);
+  table.classes = {table.classes[0], table.classes.back()};
+  EXPECT_EQ(vehicle_kinds(table).size(), 1u);
+  table.classes.back().kinds.clear();
+  EXPECT_EQ(vehicle_kinds(table).size(), kKinds.size());
+}
+
+TEST(SizePrior, AKindWithoutADeviationIsRefused) {
+  objects::ClassTable table;
+  table.classes.push_back(
+      {.name = "bin",
+       .shape = objects::Shape::cuboid,
+       .kinds = {{.name = "b", .length_m = {1.2}, .width_m = {1, 1}, .height_m = {1, 1}}}});
+  EXPECT_THROW((void)vehicle_kinds(table), Error);
 }
 
 TEST(SizePrior, TopTellsTheKind) {
@@ -39,7 +65,7 @@ TEST(SizePrior, AHigherVehicleReachesToWherePointsEnd) {
 TEST(SizePrior, WhatIsAsLongAsATruckAndNoHigherThanACarIsTwoCars) {
   const auto odds = [](double length, double top) {
     double two = 0, one = 0;
-    for (const VehicleKind& kind : vehicle_kinds()) {
+    for (const VehicleKind& kind : kKinds) {
       const double z = (length - kind.plan[0].mean) / kind.plan[0].sd;
       const double likelihood =
           kind.weight * std::exp(log_likelihood_of_top(top, kind, kHighest, 0.06) - 0.5 * z * z) /
@@ -55,16 +81,15 @@ TEST(SizePrior, WhatIsAsLongAsATruckAndNoHigherThanACarIsTwoCars) {
 }
 
 TEST(SizePrior, NoKindIsAsWideAsTwoVehiclesUnlessThatIsDoubtful) {
-  EXPECT_TRUE(is_of_some_kind({{{4.5, 0.2}, {1.8, 0.1}}}, 4));
-  EXPECT_TRUE(is_of_some_kind({{{11.5, 0.2}, {2.5, 0.1}}}, 4));
-  EXPECT_FALSE(is_of_some_kind({{{4.5, 0.2}, {3.5, 0.1}}}, 4));
-  EXPECT_TRUE(is_of_some_kind({{{4.5, 0.2}, {3.5, 0.5}}}, 4));
+  EXPECT_TRUE(is_of_some_kind({{{4.5, 0.2}, {1.8, 0.1}}}, 4, kKinds));
+  EXPECT_TRUE(is_of_some_kind({{{11.5, 0.2}, {2.5, 0.1}}}, 4, kKinds));
+  EXPECT_FALSE(is_of_some_kind({{{4.5, 0.2}, {3.5, 0.1}}}, 4, kKinds));
+  EXPECT_TRUE(is_of_some_kind({{{4.5, 0.2}, {3.5, 0.5}}}, 4, kKinds));
 }
 
 TEST(SizePrior, AHiddenTopExcludesNoHigherKind) {
-  const auto kinds = vehicle_kinds();
-  const auto van = std::ranges::find(kinds, "van", &VehicleKind::name);
-  const auto car = std::ranges::find(kinds, "medium car", &VehicleKind::name);
+  const auto van = std::ranges::find(kKinds, "van", &VehicleKind::name);
+  const auto car = std::ranges::find(kKinds, "medium car", &VehicleKind::name);
   const auto odds = [&](double top) {
     return log_likelihood_of_top(top, *van, kHighest, 0.06) -
            log_likelihood_of_top(top, *car, kHighest, 0.06);

@@ -71,7 +71,8 @@ struct Scene {
   [[nodiscard]] VehicleFit fitted_to(const std::vector<BodyPoint>& points,
                                      const std::vector<Eigen::Vector3d>& hits = {}) const {
     const Sight sight{{sensor}, beams(hits), Surroundings({}), SE3::Identity()};
-    return fit_vehicle(points, sight, *make_fitter(config), config);
+    const VehicleKinds kinds = vehicle_kinds({});
+    return fit_vehicle(points, sight, *make_fitter(config, kinds), config, kinds);
   }
 };
 

@@ -14,7 +14,7 @@ SCENARIO = ROOT / "configs/scenarios/small.yaml"
 AT_REST = 0.2  # m/s
 FAST = 0.8     # m/s over ground: on the way
 # From one side to the other a leg is long enough for a fault in the middle of it.
-TWO_SIDES = ("--set", "active.visit.sides=2", "--set", "active.visit.oblique_worth_m=10")
+TWO_SIDES = ("--preset", "visit", "--set", "active.visit.sides=2", "--set", "active.visit.oblique_worth_m=10")
 
 
 class Row:

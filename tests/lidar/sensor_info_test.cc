@@ -37,6 +37,11 @@ TEST(SensorInfo, RefusesSizesThatNoSensorHas) {
   EXPECT_THROW((void)SensorInfo::make_os1(64, 1000, PacketProfile::kLegacy), Error);
 }
 
+TEST(SensorInfo, IsNamedAsTheVendorNamesIt) {
+  const SensorInfo info = SensorInfo::make_os1(64, 512, PacketProfile::kLegacy);
+  EXPECT_EQ(name_and_mode(info), "OS1-64 512x10");
+}
+
 TEST(ColumnWindow, MayWrapThroughColumnZero) {
   const ColumnWindow window{900, 99};
   EXPECT_TRUE(window.contains(900));

@@ -18,6 +18,25 @@ TEST(ClassTable, MergesLabelsAndWritesTheFirst) {
   EXPECT_EQ(table.of_label(table.label_of(0)), 0);
 }
 
+TEST(ClassTable, ShippedVehiclesHaveKindsThatAreAllOfThem) {
+  const ClassTable table;
+  const ObjectClass& vehicle = table[table.first_target()];
+  EXPECT_EQ(vehicle.name, "vehicle");
+  double sum = 0;
+  for (const ObjectKind& kind : vehicle.kinds) {
+    sum += kind.share;
+    EXPECT_EQ(kind.length_m.size(), 2U) << kind.name;
+    EXPECT_GT(kind.length_m[0], kind.width_m[0]) << kind.name;
+  }
+  EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+TEST(ClassTable, WithoutATargetThereIsNoFirst) {
+  ClassTable table;
+  for (ObjectClass& c : table.classes) c.target = false;
+  EXPECT_EQ(table.first_target(), 0);
+}
+
 TEST(ClassTable, UnknownNameIsNamedWithTheKnownOnes) {
   try {
     (void)ClassTable{}.find("lorry");

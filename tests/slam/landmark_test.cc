@@ -13,6 +13,7 @@ using namespace made;
 
 const objects::ClassTable kTable;
 const LandmarkConfig kConfig;
+constexpr double kFootprint = 5;  // m
 constexpr double kPi = std::numbers::pi;
 
 /// Feeds measurements of one object, made in the world's frame, to one landmark.
@@ -179,15 +180,15 @@ TEST(Landmark, EarlyEvidenceOfAClassIsNotForgotten) {
 TEST(Landmark, MovesWhenItsFootprintsCoverMoreThanOneVehicle) {
   Feed feed;
   for (int i = 0; i < 5; ++i) feed(car(5 + 0.3 * i, 0, 0), kVehicle);
-  EXPECT_FALSE(moves(feed(car(6.4, 0, 0), kVehicle), kConfig));
-  EXPECT_TRUE(moves(feed(car(8, 0, 0), kVehicle), kConfig));
+  EXPECT_FALSE(moves(feed(car(6.4, 0, 0), kVehicle), kFootprint, kConfig));
+  EXPECT_TRUE(moves(feed(car(8, 0, 0), kVehicle), kFootprint, kConfig));
 }
 
 TEST(Landmark, ThatStoodForLongDoesNotMoveByOneFalseWindow) {
   Feed feed;
   for (int i = 0; i <= kConfig.still_windows; ++i) feed(car(5, 0, 0), kVehicle);
-  EXPECT_FALSE(moves(feed(car(8, 0, 0), kVehicle), kConfig));
-  EXPECT_TRUE(moves(feed(car(8.5, 0, 0), kVehicle), kConfig));
+  EXPECT_FALSE(moves(feed(car(8, 0, 0), kVehicle), kFootprint, kConfig));
+  EXPECT_TRUE(moves(feed(car(8.5, 0, 0), kVehicle), kFootprint, kConfig));
 }
 
 TEST(Landmark, OfTwoVehiclesComesBackWhatDrivesAwayDoesNot) {
@@ -205,7 +206,7 @@ TEST(Landmark, StandsWhenOnlyTheSeenPartWanders) {
   Feed feed;  // first the rear, then all, then the front of a vehicle from x = 5 to 9.4
   feed(car(5.6, 0, 0, 1.2), kVehicle);
   feed(car(7.2, 0, 0, 4.4), kVehicle);
-  EXPECT_FALSE(moves(feed(car(8.8, 0, 0, 1.2), kVehicle), kConfig));
+  EXPECT_FALSE(moves(feed(car(8.8, 0, 0, 1.2), kVehicle), kFootprint, kConfig));
 }
 
 TEST(Landmark, MeasurementsFromOneKeyframeAreFused) {

@@ -162,8 +162,9 @@ inline std::vector<SE3> loop(double radius, double step, double rounds = 1) {
 /// Independent windows and honest covariances.
 inline SlamConfig honest_config() {
   SlamConfig config;
-  config.graph.hidden_ends.sds = 1e9;  // nothing is hidden in this world
-  config.graph.robust_scale = 6;       // wide enough for noise that is what it says
+  config.measurement_noise = NoiseSource::fixed;
+  config.graph.hidden_ends.enabled = false;  // nothing is hidden in this world
+  config.graph.robust_scale = 6;             // wide enough for noise that is what it says
   config.noise = {.covariance_scale = 1, .lean_deg = 0, .roof_m = 0};
   config.keyframes.rotation_floor_deg = 1e-4;
   config.keyframes.translation_floor_m = 1e-4;

@@ -23,8 +23,8 @@ struct Drive {
   Robot robot;
   double worst_estimate = 0, worst_odometry = 0;
 
-  Drive(const SlamConfig& config, Robot the_robot)
-      : slam(config, {}), robot(std::move(the_robot)) {}
+  Drive(const SlamConfig& config, Robot the_robot, const objects::ClassTable& table = {})
+      : slam(config, table), robot(std::move(the_robot)) {}
 
   void along(const std::vector<SE3>& poses) {
     std::vector<SE3> truth;
@@ -147,8 +147,9 @@ TEST(Slam, WhatWindowsShareWidensWhatIsReportedButNotByThePoses) {
 TEST(Slam, WithFittedNoiseNoWidthIsReportedWorseThanItsClassKnowsIt) {
   SlamConfig config = honest_config();
   config.measurement_noise = NoiseSource::fitted;
-  config.noise.fitted_class_width_m = 0.01;
-  Drive drive(config, Robot(ring_of_objects(12, 5), {.drawn = 0}, 1));
+  objects::ClassTable table;
+  table.classes[kVehicle].width_sd_m = 0.01;
+  Drive drive(config, Robot(ring_of_objects(12, 5), {.drawn = 0}, 1), table);
   drive.along(loop(12, 1, 1));
   int vehicles = 0;
   for (const objects::MapObject& object : drive.slam.map_given_poses().objects) {

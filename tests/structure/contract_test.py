@@ -7,7 +7,7 @@ import unittest
 
 import repository
 
-EVERYWHERE = {"--help", "--config", "--set", "--seed", "--threads", "--verbose"}
+EVERYWHERE = {"--help", "--preset", "--config", "--set", "--seed", "--threads", "--verbose"}
 WITH_OUT = {"--out", "--force"}
 
 

@@ -8,17 +8,16 @@ MAP = ROOT / "tests/objects/version_1.json"
 
 
 class CommandLine(ProgramTest):
-    def test_the_default_configuration_in_the_repository_is_the_one_in_the_program(self):
-        self.assertEqual(saker("config").stdout, (ROOT / "configs/default.yaml").read_text())
-
     def test_the_default_configuration_can_be_read_back(self):
         run = saker("config", "--config", ROOT / "configs/default.yaml")
         self.assertEqual(run.stdout, (ROOT / "configs/default.yaml").read_text(), run.stderr)
 
-    def test_the_configuration_of_the_papers_estimator_can_be_read(self):
-        run = saker("config", "--config", ROOT / "configs/replica.yaml")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("fitter: hull", run.stdout)
+    def test_a_preset_is_over_the_defaults_and_below_what_else_is_said(self):
+        preset = saker("config", "--all", "--preset", "paper").stdout
+        for line in ("fitter: hull", "policy: paper", "measurement_noise: fixed", "every_window: true"):
+            self.assertIn(line, preset)
+        self.assertIn("policy: saker", saker("config", "--preset", "paper", "--set", "active.policy=saker").stdout)
+        self.assertIn("expected one of paper, visit", self.refused("config", "--preset", "papper"))
 
     def test_a_setting_shows_in_the_effective_configuration(self):
         default = saker("config").stdout

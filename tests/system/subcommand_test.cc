@@ -48,13 +48,14 @@ class SubcommandTest : public testing::Test {
 };
 
 TEST_F(SubcommandTest, CommonOptionsArrive) {
-  EXPECT_EQ(call({"copy", "a", "-o", "b", "--config", "c.yaml", "--set", "x=1", "--set",
-                  "y.z=[1,2]", "--seed", "7", "--threads", "3", "-v", "--force"}),
+  EXPECT_EQ(call({"copy", "a", "-o", "b", "--preset", "paper", "--config", "c.yaml", "--set", "x=1",
+                  "--set", "y.z=[1,2]", "--seed", "7", "--threads", "3", "-v", "--force"}),
             0);
   EXPECT_EQ(input_, "a");
   EXPECT_EQ(common_.out, "b");
-  EXPECT_EQ(common_.config_file, "c.yaml");
-  EXPECT_EQ(common_.settings, (std::vector<std::string>{"x=1", "y.z=[1,2]"}));
+  EXPECT_EQ(common_.configuration.preset, "paper");
+  EXPECT_EQ(common_.configuration.file, "c.yaml");
+  EXPECT_EQ(common_.configuration.settings, (std::vector<std::string>{"x=1", "y.z=[1,2]"}));
   EXPECT_EQ(common_.seed, 7u);
   EXPECT_EQ(common_.threads, 3);
   EXPECT_TRUE(common_.verbose);
@@ -66,7 +67,7 @@ TEST_F(SubcommandTest, DefaultsHold) {
   EXPECT_EQ(common_.seed, 1u);
   EXPECT_GE(common_.threads, 1);
   EXPECT_FALSE(common_.force);
-  EXPECT_TRUE(common_.settings.empty());
+  EXPECT_TRUE(common_.configuration.settings.empty());
 }
 
 TEST_F(SubcommandTest, ASettingDoesNotSwallowTheInput) {
@@ -90,7 +91,7 @@ TEST_F(SubcommandTest, AnErrorIsOneLineWithTheCommandAndStatus2) {
 TEST_F(SubcommandTest, WhatTheCheckRefusesIsNotRun) {
   run_ = []() -> int { throw Error("run"); };
   check_ = [](const CommonOptions& common) {
-    throw Error(common.settings.at(0) + ": unknown key");
+    throw Error(common.configuration.settings.at(0) + ": unknown key");
   };
   EXPECT_EQ(call({"copy", "a", "-o", "b", "--set", "x=1"}), 2);
   EXPECT_EQ(error_, "saker copy: x=1: unknown key\n");

@@ -7,8 +7,9 @@
 namespace saker::tools {
 namespace {
 
-int print_configuration(const CommonOptions& common) {
-  std::cout << configuration_text(read_configuration(common)) << std::flush;
+int print_configuration(bool all, const CommonOptions& common) {
+  const flight::ProcessConfig config = read_configuration(common);
+  std::cout << (all ? configuration_text(config) : settings_text(config)) << std::flush;
   if (!std::cout) throw Error("cannot write to the standard output");
   return 0;
 }
@@ -16,10 +17,13 @@ int print_configuration(const CommonOptions& common) {
 }  // namespace
 
 void add_config(Commands& commands) {
-  commands.add({.name = "config",
-                .does = "prints the whole effective configuration, every key with unit and meaning",
-                .example = "saker config --set odometry.map.voxel_m=0.5 > my.yaml"},
-               print_configuration);
+  auto all = std::make_shared<bool>(false);
+  commands
+      .add({.name = "config",
+            .does = "prints the effective settings, each with unit, range and meaning",
+            .example = "saker config --set motion.limits.max_speed=2 > my.yaml"},
+           [all](const CommonOptions& common) { return print_configuration(*all, common); })
+      .add_flag("--all", *all, "constants of algorithms and of fits, too");
 }
 
 }  // namespace saker::tools

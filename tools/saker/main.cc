@@ -7,12 +7,6 @@ namespace saker::tools {
 #include "commands.inc"
 #undef SAKER_COMMAND
 
-namespace {
-
-/// A wrong key is refused by every command, also by one that reads no key.
-void check(const CommonOptions& common) { (void)read_configuration(common); }
-
-}  // namespace
 }  // namespace saker::tools
 
 int main(int argc, char** argv) {
@@ -22,5 +16,5 @@ int main(int argc, char** argv) {
 #include "commands.inc"
 #undef SAKER_COMMAND
       },
-      saker::tools::check, argc, argv);
+      saker::tools::check_configuration, argc, argv);
 }

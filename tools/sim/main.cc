@@ -29,8 +29,7 @@ simulation::MissionConfig read_mission(const std::string& file) {
 
 /// 0 when it flew, or was ended, without touching anything.
 int simulate(const flight::ProcessOptions& options, const SimOptions& sim) {
-  const auto config =
-      core::load_config<flight::ProcessConfig>(options.config_file, options.settings);
+  const flight::ProcessConfig config = flight::read_configuration(options.configuration);
   const simulation::MissionConfig mission = read_mission(sim.scenario);
   simulation::SimulatedVehicle vehicle(mission, sim.output.seed);
   flight::Bus bus(config.bus, options.robot);

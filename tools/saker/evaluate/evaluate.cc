@@ -112,7 +112,7 @@ Json map_figures(const EvaluateOptions& options, const CommonOptions& common) {
   for (const VehicleResult& v : vehicles.vehicles) figures["vehicles"].push_back(vehicle_json(v));
   const std::vector<WindowResult> windows =
       window_results(read_detections(run / "detections.jsonl", table), table, poses, labelled);
-  const Eigen::Vector2d box(config.active.targets.default_size_m.data());
+  const Eigen::Vector2d box(table[table.first_target()].size_m.data());
   figures["windows"] = window_json(windows, box);
   std::cout << window_text(figures["windows"]);
   return figures;

@@ -21,9 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// m: a take-off swings over its height.
-constexpr double kUnderFence = 0.4;
-
 /// What it is told beforehand, `world`, and what is to be mapped.
 struct Task {
   std::vector<int> targets;
@@ -47,11 +44,8 @@ simulation::SimulatedVehicle vehicle_of(const MissionRun& run) {
 autonomy::Config at_site(autonomy::Config config, const MissionRun& run, const Task& task,
                          const simulation::MissionFence& fence) {
   config.motion.geofence = {fence.lowest_m, fence.highest_m, task.fence_m};
-  const double highest = fence.highest_m - kUnderFence;
-  config.mission.height_m = std::min(config.mission.height_m, highest);
-  config.active.viewpoints.height_m = std::min(config.active.viewpoints.height_m, highest);
   config.mount = {run.site.mount.position_m, run.site.mount.rotation_deg};
-  return config;
+  return autonomy::within_geofence(std::move(config));
 }
 
 /// Every phase with its deadline, twice: then something is wrong with the deadlines themselves.
@@ -170,6 +164,8 @@ Json fly(const MissionRun& run, const fs::path& out) {
   simulation::SimulatedVehicle vehicle = vehicle_of(run);
   const Task task = task_of(run, vehicle.site());
   const autonomy::Config config = at_site(run.config, run, task, vehicle.site().fence);
+  const std::string note = autonomy::noise_note(config, lidar::name_and_mode(vehicle.sensor()));
+  if (!note.empty()) run.log->info("{}", note);
   SimulatedPlant plant(vehicle);
   autonomy::LocalChecker checker(config.local_checker, config.collision_checker,
                                  config.motion.clearance);

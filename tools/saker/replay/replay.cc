@@ -142,6 +142,9 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   core::Timings timings;
   autonomy::Lockstep lockstep(config, common.threads, timings);
   const OutputFolder out(common);
+  if (const std::string note = autonomy::noise_note(config, source->sensor_name()); !note.empty()) {
+    spdlog::info("{}", note);
+  }
 
   RunRecorder recorder(out.path(), config.objects);
   const auto start = std::chrono::steady_clock::now();
