@@ -97,7 +97,7 @@ struct VisitConfig {
 };
 
 struct ActiveConfig {
-  PolicyName policy = PolicyName::visit;
+  PolicyName policy = PolicyName::saker;
   TargetsConfig targets;
   TourConfig tour;
   FieldOfViewConfig view;

@@ -36,7 +36,7 @@ struct SlamConfig {
   GraphConfig graph;
   GroundMapConfig ground;
   HistoryConfig history;
-  NoiseSource measurement_noise = NoiseSource::fixed;
+  NoiseSource measurement_noise = NoiseSource::fitted;
   MeasurementNoiseConfig noise;
 
   template <class Visitor>

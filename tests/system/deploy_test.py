@@ -78,7 +78,7 @@ class Units(unittest.TestCase):
         names = {"metadata.json": "sensor.json", "prior.json": "prior.json", "site.yaml": "saker.yaml"}
         for source, name in names.items():
             self.run("install", "-m", "644", site / source, f"/etc/saker/{name}")
-        options = "--prior /etc/saker/prior.json --set active.policy=saker"
+        options = "--prior /etc/saker/prior.json"
         self.run("sed", "-i", f's|^FLIGHT_OPTIONS=.*|FLIGHT_OPTIONS="{options}"|', "/etc/default/saker")
         return site
 

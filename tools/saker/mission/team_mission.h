@@ -22,7 +22,7 @@ struct RobotConfig {
   double yaw_deg = 0;
   double height_m = 3;
   lidar::MountConfig mount;
-  active::PolicyName policy = active::PolicyName::visit;
+  active::PolicyName policy = active::PolicyName::saker;
   std::vector<double> lot_m;
   std::vector<std::string> set;
 
