@@ -6,6 +6,7 @@ import pathlib
 import platform
 import subprocess
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CODE = ("modules", "flight", "tools", "configs")
@@ -43,6 +44,11 @@ def today():
 
 def text(value):
     return "–" if value is None else f"{value:.4g}"
+
+
+def prose(words):
+    """Lines of a paragraph."""
+    return textwrap.wrap(" ".join(words.split()), width=140, break_long_words=False, break_on_hyphens=False)
 
 
 def table(heads, rows):

@@ -19,7 +19,7 @@ VARIANTS = {
 }
 ALL = ("slam.measurement_noise=fitted",)  # of every variant: they differ in where they fly alone
 
-ROW = ("runs", "targets", "found", "reachable", "reachable_found", "mapped_share", "mae_m", "bias_m", "sd_m", "length", "width",
+ROW = ("runs", "succeeded", "targets", "found", "reachable", "reachable_found", "mapped_share", "mae_m", "bias_m", "sd_m", "length", "width",
        "size_nees", "place_nees", "collisions", "min_clearance_m", "trajectory_error_m", "flight_time_s", "path_m", "classes")
 
 

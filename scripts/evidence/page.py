@@ -1,5 +1,5 @@
 """docs/results.md, from docs/results.json alone."""
-from evidence.common import table
+from evidence.common import prose, table
 from evidence.real_time import LOOPS
 
 
@@ -34,8 +34,9 @@ def mission_rows(entry):
         row = entry[name]
         said = row.get("predictions", {}).get("realised_over_predicted")
         errors = [f"{m(row[of_what]['bias_m'])}, {m(row[of_what]['sd_m'])}" for of_what in ("length", "width")]
-        yield [f"`{name}`", of(row, "reachable_found", "reachable"), m(row["mae_m"]), *errors, m(row["size_nees"], 2), row["collisions"],
-               m(row["min_clearance_m"], 2), m(row["flight_time_s"], 0), m(row["path_m"], 0), invented(row), m(said, 2)]
+        yield [f"`{name}`", of(row, "reachable_found", "reachable"), m(row["mae_m"]), *errors, m(row["size_nees"], 2),
+               of(row, "succeeded", "runs"), row["collisions"], m(row["min_clearance_m"], 2), m(row["flight_time_s"], 0),
+               m(row["path_m"], 0), invented(row), m(said, 2)]
 
 
 def scenario_rows(entry):
@@ -45,77 +46,87 @@ def scenario_rows(entry):
 
 
 def missions(entry):
-    names = [f"`{name}`" for name in entry["variants"]]
-    lines = ["Missions in lockstep, world and vehicle simulated; all policies fly the same worlds with the same estimator, so that the table",
-             "tells where they look from. `sides` and `paper` are the best that others would do: `sides` is `visit` from two opposite corners of",
-             "each vehicle, which takes the time that `saker` takes or more; `paper` chooses among all views that its model has seen flown, instead",
-             "of the best quarter and of that its centroids. Beside the policy they differ by:", ""]
-    lines += table(["name", "settings"], [[f"`{name}`", f"`{said}`"] for name, said in entry["variants"].items()])
-    lines += ["", "Errors of length and width are mapped − true, over all found targets; MAE: of both together. Found: of the targets that can be",
-              "reached, which follows from world and geofence. NEES a degree of freedom (1: covariances are honest). Invented: of the mapped",
-              "vehicles, trunks and poles. Predicted: error after a viewpoint over what was predicted of it before (1: as was said).", ""]
-    lines += table(["policy", "found", "MAE m", "length: bias, sd m", "width: bias, sd m", "NEES of size", "collisions", "least clearance m",
-                    "time s", "path m", "invented: vehicles, trunks, poles", "predicted"], mission_rows(entry))
+    lines = prose("""Missions in lockstep, world and vehicle simulated. All policies fly the same worlds with the same estimator, so that the table
+        tells where they look from. `sides` and `paper` are the best that others would do. `sides` is `visit` from two opposite corners of
+        each vehicle, set so that it gets as much time as `saker` or more. `paper` chooses among all views that its model has seen flown,
+        instead of the best quarter and of that its centroids. They differ by:""")
+    lines += ["", *table(["name", "settings"], [[f"`{name}`", f"`{said}`"] for name, said in entry["variants"].items()]), ""]
+    lines += prose("""Errors of length and width are mapped − true, over all found targets; MAE: of both together. Found: of the targets that can
+        be reached, which follows from world and geofence. NEES a degree of freedom (1: covariances are honest). Home: missions that ended their
+        tour and landed where they began. Invented: of the mapped vehicles, trunks and poles. Predicted: the error after a viewpoint over what was
+        predicted of it before (1: as was said).""")
+    heads = ["policy", "found", "MAE m", "length: bias, sd m", "width: bias, sd m", "NEES of size", "home", "collisions", "least clearance m",
+             "time s", "path m", "invented: vehicles, trunks, poles", "predicted"]
+    lines += ["", *table(heads, mission_rows(entry))]
     if entry["saker_against"]:
+        rows = [[f"`{name}`", *(interval(row[key]) for key in ("mae_m", "sd_m", "flight_time_s"))] for name, row in entry["saker_against"].items()]
         lines += ["", "`saker` over each other policy, with 95 % intervals (paired bootstrap over missions):", ""]
-        lines += table(["against", "MAE", "sd", "time"], [[f"`{name}`", *(interval(row[key]) for key in ("mae_m", "sd_m", "flight_time_s"))]
-                                                        for name, row in entry["saker_against"].items()])
-    lines += ["", "By scenario: found, MAE (m), time (s).", ""] + table(["scenario", *names], scenario_rows(entry))
+        lines += table(["against", "MAE", "sd", "time"], rows)
+    lines += ["", "By scenario: found, MAE (m), time (s).", ""]
+    lines += table(["scenario", *(f"`{name}`" for name in entry["variants"])], scenario_rows(entry))
     return lines + flown(entry) + ["![Errors of length and width, mapped − true](pictures/policy_errors.png)"]
 
 
 def real(entry):
-    lines = ["From [real.md](real.md) (`scripts/real`), which has all of it with commands and machine. One constant box: the median length and",
-             "width of all vehicles that are labelled in the drive, put in the place of each listed one: what knowing the drive's vehicles beforehand,",
-             "and measuring none, would err by.", ""]
+    lines = prose("""From [real.md](real.md) (`scripts/real`), which has all of it with commands and machine. One constant box: the median length
+        and width of all vehicles that are labelled in the drive, put in the place of each listed one: what knowing the drive's vehicles
+        beforehand, and measuring none, would err by.""")
     rows = [[f"`{name}`", of(row, "found", "listed"), m(row["size_mae_m"]), m(row["box_size_mae_m"]), m(row["length_bias_m"]),
-             m(row["size_nees"], 2), m(row["window_mae_m"]), m(row["window_hull_mae_m"]), m(row["window_box_mae_m"]), m(row["sharpness_cm"], 2),
-             row["commit"]] for name, row in entry["drives"].items()]
-    lines += table(["drive", "found", "MAE of length and width m", "one constant box m", "bias of length m", "NEES of size",
-                    "single windows m", "the same, paper's hull", "the same, a box of 4.5 m by 1.9 m", "odometry: sharpness cm", "commit"], rows)
-    lines += ["", "Vehicle IoU, by weights that saw no real scan:", ""]
+             m(row["size_nees"], 2), m(row["window_mae_m"]), m(row["window_hull_mae_m"]), m(row["window_box_mae_m"]),
+             m(row["sharpness_cm"], 2), row["commit"]] for name, row in entry["drives"].items()]
+    heads = ["drive", "found", "MAE of length and width m", "one constant box m", "bias of length m", "NEES of size", "single windows m",
+             "the same, paper's hull", "the same, a box of 4.5 m by 1.9 m", "odometry: sharpness cm", "commit"]
+    lines += ["", *table(heads, rows), "", "Vehicle IoU, by weights that saw no real scan:", ""]
     return lines + table([f"`{name}`" for name in entry["vehicle_iou"]], [[m(value, 2) for value in entry["vehicle_iou"].values()]])
 
 
 def flights(entry):
-    lines = [f"{entry['flights']} simulated flights past parked vehicles, trees and poles (OS1-64, 40 s each), mapped from their captures; maps and",
-             "truths laid side by side. A true object counts where 100 returns hit it. One box: every vehicle had been given the mean size.", ""]
+    lines = prose(f"""{entry['flights']} simulated flights past parked vehicles, trees and poles (OS1-64, 40 s each), mapped from their captures; maps
+        and truths laid side by side. A true object counts where 100 returns hit it. One box: all vehicles had been given their mean size.""")
     rows = []
     for name, row in entry["classes"].items():
-        sizes = [m(row.get(key)) for key in ("size_mae_m", "constant_size_mae_m")] + [m(row.get("length_slope"), 2)]
-        rows.append([name, of(row, "found", "truth"), of(row, "invented", "mapped"), row["duplicates"], *sizes,
-                     m(row["nees"]["size"], 2), m(row["nees"]["place"], 2)])
-    lines += table(["class", "found", "invented", "twice", "MAE of length and width m", "one box m", "slope of mapped on true length",
-                    "NEES of size", "NEES of place"], rows)
+        sizes = [m(row.get("size_mae_m")), m(row.get("constant_size_mae_m")), m(row.get("length_slope"), 2)]
+        nees = [m(row["nees"][what], 2) for what in ("size", "place")]
+        rows.append([name, of(row, "found", "truth"), of(row, "invented", "mapped"), row["duplicates"], *sizes, *nees])
+    heads = ["class", "found", "invented", "twice", "MAE of length and width m", "one box m", "slope of mapped on true length",
+             "NEES of size", "NEES of place"]
     trajectory = entry["trajectory_m"]
-    return lines + ["", f"Trajectory, position RMSE: {m(trajectory['median'])} m (median), {m(trajectory['worst'])} m (worst); at least "
-                    f"{m(entry['real_time_factor'], 1)} times real time."] + flown(entry)
+    lines += ["", *table(heads, rows), ""]
+    lines += prose(f"""Trajectory, position RMSE: {m(trajectory['median'])} m (median), {m(trajectory['worst'])} m (worst); at least
+        {m(entry['real_time_factor'], 1)} times real time.""")
+    return lines + flown(entry)
+
+
+REAL_TIME_ROWS = [
+    ("targets found", "found", 0), ("MAE of length and width, m", "mae_m", 3), ("trajectory, position RMSE, m", "trajectory_error_m", 3),
+    ("its greatest error, m", "trajectory_max_m", 3), ("collisions", "collisions", 0),
+    ("clearance of the vehicle's sphere, m", "min_clearance_m", 2), ("in the air, s", "flight_time_s", 0), ("path, m", "path_m", 0),
+    ("executive, CPU seconds a second", "cpu", 2), ("collision checker", "checker_cpu", 2), ("simulator", "simulator_cpu", 2)]
 
 
 def real_time(entry):
-    rows = [("targets found", "found", 0), ("MAE of length and width, m", "mae_m", 3), ("trajectory, position RMSE, m", "trajectory_error_m", 3),
-            ("its greatest error, m", "trajectory_max_m", 3), ("collisions", "collisions", 0), ("clearance of the vehicle's sphere, m", "min_clearance_m", 2),
-            ("in the air, s", "flight_time_s", 0), ("path, m", "path_m", 0), ("executive, CPU seconds a second", "cpu", 2),
-            ("collision checker", "checker_cpu", 2), ("simulator", "simulator_cpu", 2)]
     both = (entry["median"], entry["worst"])
-    figures = [[name, *(m(row.get(key), digits) for row in both)] for name, key, digits in rows]
+    rows = [[name, *(m(row.get(key), digits) for row in both)] for name, key, digits in REAL_TIME_ROWS]
     for loop in LOOPS:
-        figures.append([f"{loop}: late by more than 5 ms; worst, ms",
-                        *(f"{percent(row[loop + '_late'])}; {m(row[loop + '_worst_ms'], 1)}" for row in both)])
-    lines = [f"Simulator, collision checker and executive, three processes over LCM and UDP, {entry['median']['targets']:.0f} targets. Of {entry['flights']} flights",
-             "the median and the worst of each figure; what else runs on the machine counts.", ""]
-    return lines + table(["figure", "median", "worst"], figures) + flown(entry) + [
-        "![The mission's map: objects, trajectory, viewpoints and truth from above](pictures/mission.png)"]
+        rows.append([f"{loop}: late by more than 5 ms; worst, ms",
+                     *(f"{percent(row[loop + '_late'])}; {m(row[loop + '_worst_ms'], 1)}" for row in both)])
+    lines = prose(f"""Simulator, collision checker and executive, three processes over LCM and UDP, {entry['median']['targets']:.0f} targets. Of
+        {entry['flights']} flights the median and the worst of each figure; what else runs on the machine counts.""")
+    return lines + ["", *table(["figure", "median", "worst"], rows), *flown(entry),
+                    "![The mission's map: objects, trajectory, viewpoints and truth from above](pictures/mission.png)"]
 
 
 def teams(entry):
-    lines = ["Three robots take off side by side, each maps the vehicles of its lot, the base merges what they tell it (`configs/missions/lots.yaml`).", ""]
-    rows = [[name, of(row, "found", "targets"), m(row["objects_per_min"], 2), m(row["bias_m"]), m(row["sd_m"]), m(row["mae_m"]), row["collisions"],
-             m(row["busy_s"], 0)] for name, row in entry["robots"].items()]
-    lines += table(["robot", "found", "objects a minute", "bias m", "sd m", "MAE m", "collisions", "flight and exchange s"], rows)
-    ratio = entry["together_over_mean"]
-    return lines + ["", f"All together over the mean of the three: objects a minute {m(ratio['objects_per_min'], 2)} times, MAE {m(ratio['mae_m'], 2)} times, "
-                    f"sd {m(ratio['sd_m'], 2)} times."] + flown(entry)
+    lines = prose("""Three robots take off side by side, each maps the vehicles of its lot, the base merges what they tell it
+        (`configs/missions/lots.yaml`).""")
+    rows = [[name, of(row, "found", "targets"), m(row["objects_per_min"], 2), m(row["bias_m"]), m(row["sd_m"]), m(row["mae_m"]),
+             row["collisions"], m(row["busy_s"], 0)] for name, row in entry["robots"].items()]
+    heads = ["robot", "found", "objects a minute", "bias m", "sd m", "MAE m", "collisions", "flight and exchange s"]
+    ratio = {key: m(value, 2) for key, value in entry["together_over_mean"].items()}
+    lines += ["", *table(heads, rows), ""]
+    lines += prose(f"""All together over the mean of the three: objects a minute {ratio['objects_per_min']} times, MAE {ratio['mae_m']} times,
+        sd {ratio['sd_m']} times.""")
+    return lines + flown(entry)
 
 
 PARTS = {"missions": ("Missions: where to look from", missions), "real": ("Real recordings", real), "flights": ("Simulated flights", flights),
@@ -123,8 +134,9 @@ PARTS = {"missions": ("Missions: where to look from", missions), "real": ("Real 
 
 
 def page(document):
-    lines = ["# Results", "", "`scripts/results` flies, measures and writes this page from [results.json](results.json): it is not edited. Each table has its command,",
-             "seeds, commit and machine."]
+    lines = ["# Results", ""]
+    lines += prose("""`scripts/results` flies, measures and writes this page from [results.json](results.json): it is not edited. Each table has
+        its command, seeds, commit and machine.""")
     for part, (title, lines_of) in PARTS.items():
         body = lines_of(document[part]) if part in document else [f"Not measured yet: `scripts/results {part}`."]
         lines += ["", f"## {title}", "", *body]

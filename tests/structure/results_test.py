@@ -1,6 +1,7 @@
 """docs/results.md is the page of docs/results.json, no older than the code that it speaks of; who quotes from it quotes right."""
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import unittest
 import repository
 
 sys.path.insert(0, str(repository.ROOT / "scripts"))
-from evidence import history, page, quotes, real, real_time  # noqa: E402
+from evidence import history, missions, page, quotes, real, real_time  # noqa: E402
 
 DOCS = repository.ROOT / "docs"
 FIGURES = DOCS / "results.json"
@@ -124,6 +125,25 @@ class History(unittest.TestCase):
 
 
 class Parts(unittest.TestCase):
+    def test_every_variant_is_a_configuration(self):
+        for name, settings in missions.VARIANTS.items():
+            words = [part for setting in (*settings.split(), *missions.ALL) for part in ("--set", setting)]
+            with self.subTest(variant=name):
+                run = subprocess.run([os.environ["SAKER"], "config", *words], capture_output=True, text=True)
+                self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_predictions_are_put_together_by_their_squares(self):
+        bins = [{"outcomes": 3, "predicted_m": 0.1, "realised_m": 0.1, "ratio": 1},
+                {"outcomes": 1, "predicted_m": 0.1, "realised_m": 0.3, "ratio": 3}]
+        self.assertEqual(missions.predicted(bins), {"outcomes": 4, "realised_over_predicted": 3 ** 0.5, "bins": [1, 3]})
+
+    def test_saker_is_compared_with_each_other_policy_over_all_scenarios(self):
+        ratio = {"estimate": 0.5, "low": 0.4, "high": 0.6}
+        row = lambda where, who, against: {"scenario": where, "policy": who, "against": against,
+                                           "figures": {"mae_m": {"ratio": ratio, "verdict": "less"}, "path_m": {"ratio": ratio, "verdict": "-"}}}
+        rows = [row("demo", "saker", "visit"), row("all", "paper", "visit"), row("all", "saker", "visit"), row("all", "saker", "paper")]
+        self.assertEqual(missions.compared(rows, "all"), {who: {"mae_m": {**ratio, "verdict": "less"}} for who in ("visit", "paper")})
+
     def test_of_several_flights_the_median_and_the_worst_are_told(self):
         report = lambda mae, clearance, late: {
             **dict.fromkeys(real_time.FIGURES, 1), "targets": 8, "mae_m": mae, "min_clearance_m": clearance,
