@@ -11,8 +11,9 @@ SCENARIOS = ("demo", "urban2", "urban3", "lots", "garage", "dirt_road")
 # What is compared: a policy, or one with settings of its own. `saker` is compared with those before it.
 VARIANTS = {
     "visit": "active.policy=visit",
-    # As much time as `saker`: two opposite corners of each vehicle, from which all its edges are seen.
-    "sides": "active.policy=visit active.visit.sides=2 active.visit.oblique_worth_m=10",
+    # As much time as `saker` or more: two opposite corners of each vehicle of the prior map, from which all its edges are seen, for three
+    # windows each. With vehicles that are met beside them and five windows it takes twice that.
+    "sides": "active.policy=visit active.visit.sides=2 active.visit.oblique_worth_m=10 active.visit.dwell_s=1.5 active.discovery.most=0",
     # All views that the model has seen flown, where the default keeps the best quarter of them and of that its centroids.
     "paper": "active.policy=paper active.region.best_share=1 active.paper.sampling=uniform",
     "saker": "active.policy=saker",

@@ -48,7 +48,7 @@ def scenario_rows(entry):
 def missions(entry):
     lines = prose("""Missions in lockstep, world and vehicle simulated. All policies fly the same worlds with the same estimator, so that the table
         tells where they look from. `sides` and `paper` are the best that others would do. `sides` is `visit` from two opposite corners of
-        each vehicle, set so that it gets as much time as `saker` or more. `paper` chooses among all views that its model has seen flown,
+        each vehicle that the prior map has, set so that it gets as much time as `saker` or more. `paper` chooses among all views that its model has seen flown,
         instead of the best quarter and of that its centroids. They differ by:""")
     lines += ["", *table(["name", "settings"], [[f"`{name}`", f"`{said}`"] for name, said in entry["variants"].items()]), ""]
     lines += prose("""Errors of length and width are mapped − true, over all found targets; MAE: of both together. Found: of the targets that can
