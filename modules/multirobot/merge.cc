@@ -67,7 +67,7 @@ MultiRobotSlam::MultiRobotSlam(const MergeConfig& config, const slam::SlamConfig
       slam_(core::checked(slam, "slam")),
       landmark_config_(slam.landmarks),
       table_(table) {
-  landmark_slam_.class_clamp = kClassClamp;
+  landmark_config_.class_clamp = kClassClamp;
 }
 
 MergeReport MultiRobotSlam::add(const slam::History& history,
@@ -107,7 +107,7 @@ std::optional<slam::PosePrior> MultiRobotSlam::take_off(
   const SE3& T_odom_lidar = history.entries.front().T_odom_lidar;
   if (T_world_odom) return of_first_keyframe(*T_world_odom, T_odom_lidar);
   if (flights_.empty()) return std::nullopt;
-  MultiRobotSlam alone(config_, table_);
+  MultiRobotSlam alone(config_, slam_, table_);
   (void)alone.add(history, std::nullopt, budget);
   report.alignment = align(survey(), alone.survey(), config_.constellation);
   if (report.alignment.status == AlignmentStatus::accepted)
@@ -138,7 +138,7 @@ std::vector<slam::Candidate> MultiRobotSlam::candidates(const slam::HistoryEntry
     if (measurement.moving != moving) continue;
     const bool fits =
         measurement.class_probability.size() == static_cast<std::size_t>(table_.size()) &&
-        valid({measurement.model, measurement.covariance});
+        slam::valid({measurement.model, measurement.covariance});
     if (!fits || all.size() >= kMostMeasurements) {
       ++report.refused;
       continue;
@@ -354,7 +354,8 @@ slam::Slam::MapWithCovariance MultiRobotSlam::map_with_covariance() const {
   MultiRobotSlam copy = *this;
   const std::vector<slam::Landmark*> in_graph = pointers(copy.landmarks_);
   const std::vector<const slam::Landmark*> wanted(in_graph.begin(), in_graph.end());
-  const CovarianceReport report = graph_covariance(copy.chains(), in_graph, wanted, slam_.graph);
+  const slam::CovarianceReport report =
+      graph_covariance(copy.chains(), in_graph, wanted, slam_.graph);
   slam::Slam::MapWithCovariance result{map(), report.marginal};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     result.map.objects[i].covariance = named_covariance(*wanted[i], report.covariances[i]);
@@ -369,7 +370,7 @@ objects::ObjectMap MultiRobotSlam::reported_map() const {
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const slam::Landmark& landmark = landmarks_[i];
     Eigen::MatrixXd& covariance = map.objects[i].covariance;
-    widen(covariance, landmark, all, config_);
+    widen(covariance, landmark, all, slam_);
     covariance.diagonal() += common_variances(landmark.model, slam_.noise);
   }
   return map;

@@ -9,8 +9,6 @@
 namespace saker::multirobot {
 namespace {
 
-using namespace slam;
-
 BitGraph random_graph(int nodes, double density, core::Rng& rng) {
   BitGraph graph(nodes);
   for (int i = 0; i < nodes; ++i) {

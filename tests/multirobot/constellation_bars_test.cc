@@ -9,7 +9,7 @@ namespace saker::multirobot {
 namespace {
 
 using namespace slam;
-using namespace slam::made;
+using namespace made;
 
 constexpr double kRadian = std::numbers::pi / 180;
 

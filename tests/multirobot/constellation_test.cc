@@ -8,7 +8,7 @@ namespace saker::multirobot {
 namespace {
 
 using namespace slam;
-using namespace slam::made;
+using namespace made;
 
 Survey row_of_cars(int first, int count, double y, core::Rng* sizes) {
   Survey survey;

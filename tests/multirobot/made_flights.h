@@ -50,13 +50,13 @@ inline std::vector<SE3> back(std::vector<SE3> poses) {
 }
 
 /// Mean distance of a merged trajectory from the truth, m, and that of its end.
-inline double path_error(const MergedFlight& flight, const Flown& flown) {
+inline double path_error(const multirobot::MergedFlight& flight, const Flown& flown) {
   double sum = 0;
   for (std::size_t k = 0; k < flown.truth.size(); ++k)
     sum += (flight.keyframes[k].T_world_lidar.translation() - flown.truth[k].translation()).norm();
   return sum / static_cast<double>(flown.truth.size());
 }
-inline double end_error(const MergedFlight& flight, const Flown& flown) {
+inline double end_error(const multirobot::MergedFlight& flight, const Flown& flown) {
   return (flight.keyframes[flown.truth.size() - 1].T_world_lidar.translation() -
           flown.truth.back().translation())
       .norm();

@@ -12,7 +12,6 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "build/deploy"
 PACKAGES = ROOT / "build/packages"
-MIRROR = os.environ.get("SAKER_MIRROR", "http://deb.debian.org/debian")
 INCLUDED = "systemd,systemd-sysv,iproute2,procps,logrotate"
 CAP_SYS_RESOURCE = 24
 PTRACE_ATTACH = 16
@@ -41,16 +40,22 @@ def may_raise_limits():
     return bool(int(mask, 16) >> CAP_SYS_RESOURCE & 1)
 
 
+def mirror():
+    """Where this machine's apt gets its packages from."""
+    sites = command("apt-get", "indextargets", "--format", "$(SITE)", "Created-By: Packages", "Codename: bookworm").stdout
+    return os.environ.get("SAKER_MIRROR") or sites.split()[0]
+
+
 def base():
     """A bare Debian, made once."""
     folder, part = FOLDER / "base", FOLDER / "base.part"
     if not folder.exists():
         shutil.rmtree(part, ignore_errors=True)
         FOLDER.mkdir(parents=True, exist_ok=True)
-        made = command("debootstrap", "--variant=minbase", f"--include={INCLUDED}", "bookworm", part, MIRROR,
+        made = command("debootstrap", "--variant=minbase", f"--include={INCLUDED}", "bookworm", part, mirror(),
                        check=False)
         if made.returncode != 0:
-            raise unittest.SkipTest(f"no Debian from {MIRROR}: {made.stdout[-500:]}")
+            raise unittest.SkipTest(f"no Debian from {mirror()}: {made.stdout[-500:]}")
         part.rename(folder)
     return folder
 

@@ -103,7 +103,7 @@ TEST(Picture, TheSameCallsMakeTheSameFile) {
         {{Mark::dot, colours::kInk, "points"}, {Mark::rectangle, colours::kBlue, "vehicle"}});
     const fs::path file = picture_file("same.png");
     picture.save(file);
-    return read_file(file);
+    return core::read_file(file);
   };
   EXPECT_EQ(bytes(), bytes());
 }

@@ -242,7 +242,7 @@ void Picture::save(const std::filesystem::path& file) const {
   cv::Mat whole = *image_;
   if (!strips_->empty()) cv::vconcat(*strips_, *image_, whole);
   cv::imencode(".png", whole, bytes);
-  OutputFile out(file);
+  core::OutputFile out(file);
   out.write(std::span<const std::uint8_t>(bytes));
   out.finish();
 }
