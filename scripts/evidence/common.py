@@ -4,6 +4,7 @@ import math
 import os
 import pathlib
 import platform
+import re
 import subprocess
 import sys
 import textwrap
@@ -49,6 +50,18 @@ def text(value):
 def prose(words):
     """Lines of a paragraph."""
     return textwrap.wrap(" ".join(words.split()), width=140, break_long_words=False, break_on_hyphens=False)
+
+
+def command_lines(command):
+    """Lines of one command as a shell takes them; what is in quotation marks stays together."""
+    lines = [""]
+    for word in re.findall(r'"[^"]*"|\S+', command):
+        if lines[-1] and len(lines[-1]) + len(word) > 130:
+            lines[-1] += " \\"
+            lines.append("  " + word)
+        else:
+            lines[-1] += f" {word}" if lines[-1] else word
+    return lines
 
 
 def table(heads, rows):

@@ -1,5 +1,5 @@
 """docs/results.md, from docs/results.json alone."""
-from evidence.common import prose, table
+from evidence.common import command_lines, prose, table
 from evidence.real_time import LOOPS
 
 
@@ -17,7 +17,7 @@ def interval(figure):
 
 def flown(entry):
     """How it came about."""
-    return ["", f"`{entry['command']}`", "", f"Seeds {entry['seeds']}; commit {entry['commit']}; {entry['machine']}; {entry['date']}.", ""]
+    return ["", *(f"    {line}" for line in command_lines(entry["command"])), "", f"Seeds {entry['seeds']}; commit {entry['commit']}; {entry['machine']}; {entry['date']}.", ""]
 
 
 def of(row, found, all_of):

@@ -36,6 +36,12 @@ class Results(unittest.TestCase):
     def test_the_readme_quotes_what_was_measured(self):
         self.assertEqual(quotes.wrong_quotes((repository.ROOT / "README.md").read_text(), self.document), [])
 
+    def test_the_readme_marks_as_quotations_what_scripts_measured(self):
+        lines = (repository.ROOT / "README.md").read_text().split("## Measured")[1].split("\n## ")[0].splitlines()
+        rows = [line for line in lines if line.startswith("|") and ("`scripts/results`" in line or "`scripts/real`" in line)]
+        self.assertNotEqual(rows, [])
+        self.assertEqual([row for row in rows if not quotes.quoted_paths(row)], [])
+
 
 class Quotes(unittest.TestCase):
     DOCUMENT = {"missions": {"commit": "1a2b3c4", "saker": {"mae_m": 0.02341, "bias_m": -0.0042, "found": 191, "targets": 1192, "share": 0.9947}}}
