@@ -141,7 +141,9 @@ class Parts(unittest.TestCase):
     def test_predictions_are_put_together_by_their_squares(self):
         bins = [{"outcomes": 3, "predicted_m": 0.1, "realised_m": 0.1, "ratio": 1},
                 {"outcomes": 1, "predicted_m": 0.1, "realised_m": 0.3, "ratio": 3}]
-        self.assertEqual(missions.predicted(bins), {"outcomes": 4, "realised_over_predicted": 3 ** 0.5, "bins": [1, 3]})
+        said = missions.predicted(bins)
+        self.assertAlmostEqual(said.pop("realised_over_predicted"), 3 ** 0.5)
+        self.assertEqual(said, {"outcomes": 4, "bins": [1, 3]})
 
     def test_saker_is_compared_with_each_other_policy_over_all_scenarios(self):
         ratio = {"estimate": 0.5, "low": 0.4, "high": 0.6}
