@@ -8,8 +8,8 @@
 #include "faulty_flight.h"
 
 // Whatever fails, and whenever: at rest or landing within two seconds, and it stays so. The moments
-// are those of the same flight without a fault, to the byte, at which it would hurt most. Prints
-// rows for docs/results.md.
+// are those of the same flight without a fault, to the byte, at which it would hurt most. Prints a
+// table.
 namespace saker::autonomy {
 namespace {
 

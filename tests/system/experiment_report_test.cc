@@ -40,7 +40,7 @@ std::filesystem::path flown() {
 Json results() {
   Json run = {{"scenario", "lot"}, {"policy", "visit"}, {"seed", 1}, {"succeeded", true}};
   run.update(target_figures({}, {}, {}, kTable));
-  run.update(Json{{"target_list", Json::array()},
+  run.update(Json{{"reachable_targets", Json::array()},
                   {"collisions", 0},
                   {"min_clearance_m", 1.0},
                   {"trajectory_error_m", 0.1},
@@ -55,6 +55,18 @@ TEST(ConsistencyFigures, AreOfEveryClassThatWasFound) {
   EXPECT_EQ(figures["trunk"]["objects"], 4);
   EXPECT_NEAR(figures["trunk"]["size_nees"].get<double>(), 9, 1e-9);
   EXPECT_NEAR(figures["trunk"]["place_nees"].get<double>(), 0, 1e-9);
+}
+
+TEST(ClassCounts, TellWhatIsMappedInventedAndThereTwice) {
+  objects::ObjectMap mapped = trunks(0.15);
+  mapped.objects[1].model = objects::Cylinder{{100, 0, 0}, Eigen::Vector3d::UnitZ(), 0.15, 3};
+  objects::MapObject twin = mapped.objects[0];
+  twin.id = 4;
+  std::get<objects::Cylinder>(twin.model).root.x() += 0.3;
+  mapped.objects.push_back(twin);
+  const Json counts = class_counts(mapped, trunks(0.15), kTable);
+  EXPECT_EQ(counts["trunk"], Json({{"mapped", 5}, {"invented", 1}, {"duplicates", 1}}));
+  EXPECT_EQ(counts["pole"]["mapped"], 0);
 }
 
 TEST(ExperimentReport, IsTheTableWithWhatTheResultsSayOfNees) {

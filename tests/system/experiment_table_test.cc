@@ -12,16 +12,14 @@ using Json = nlohmann::ordered_json;
 
 Json run(const std::string& scenario, const std::string& policy,
          const std::vector<std::pair<double, double>>& errors, double clearance) {
-  Json list = Json::array(), targets = Json::array();
+  Json list = Json::array();
   for (const auto& [length, width] : errors) {
-    const std::size_t id = list.size() + 1;
-    list.push_back({{"id", id}, {"length_m", length}, {"width_m", width}});
-    targets.push_back({{"id", id}, {"status", "done"}});
+    list.push_back({{"id", list.size() + 1}, {"length_m", length}, {"width_m", width}});
   }
   return {{"scenario", scenario},
           {"policy", policy},
           {"seed", 1},
-          {"target_list", targets},
+          {"reachable_targets", {1, 2}},
           {"succeeded", true},
           {"targets", 2},
           {"found", list.size()},
@@ -70,18 +68,46 @@ TEST(ExperimentTable, OfRunsThatFoundNothingHasNoErrors) {
   EXPECT_EQ(row["found"], 0);
 }
 
-TEST(ExperimentTable, WhatOnePolicyReachesIsReachableForAll) {
-  Json came = run("garage", "visit", {{0.1, 0.1}}, 1);
-  came["target_list"].push_back({{"id", 7}, {"status", "visited"}});  // but not mapped
-  Json gave_up = run("garage", "paper", {}, 1);
-  gave_up["target_list"] = {{{"id", 1}, {"status", "unreachable"}},
-                            {{"id", 7}, {"status", "unreachable"}},
-                            {{"id", 9}, {"status", "unreachable"}}};
-  const auto rows = pool({came, gave_up});
-  EXPECT_EQ(rows[0].reachable, 2);
-  EXPECT_DOUBLE_EQ(rows[0].mapped_share(), 0.5);
-  EXPECT_EQ(rows[1].reachable, 2);
-  EXPECT_DOUBLE_EQ(rows[1].mapped_share(), 0);
+TEST(ExperimentTable, MappedIsTheShareOfTheTargetsThatCanBeReached) {
+  Json one_of_two = run("garage", "visit", {{0.1, 0.1}}, 1);
+  Json all = run("garage", "visit", {{0.1, 0.1}, {0.1, 0.1}}, 1);
+  Json none = run("garage", "visit", {}, 1);
+  none["reachable_targets"] = {2};
+  const auto rows = pool({one_of_two, all, none});
+  EXPECT_EQ(rows[0].reachable, 2 + 2 + 1);
+  EXPECT_EQ(rows[0].reachable_found, 1 + 2);
+  EXPECT_DOUBLE_EQ(rows[0].mapped_share(), 0.6);
+}
+
+TEST(ExperimentTable, WhatIsDiscoveredBesideTheTargetsDoesNotMakeMappedLess) {
+  Json run_of_all = run("garage", "visit", {{0.1, 0.1}, {0.1, 0.1}}, 1);
+  run_of_all["target_list"] = {{{"id", 1}, {"status", "done"}},
+                               {{"id", 2}, {"status", "done"}},
+                               {{"id", 1000}, {"status", "visited"}}};
+  EXPECT_DOUBLE_EQ(pool({run_of_all})[0].mapped_share(), 1);
+}
+
+TEST(ExperimentTable, WhatIsFoundThoughNoViewpointHasItDoesNotMakeMappedMore) {
+  Json from_afar = run("garage", "visit", {{0.1, 0.1}}, 1);
+  from_afar["reachable_targets"] = {2};
+  EXPECT_EQ(pool({from_afar})[0].found, 1);
+  EXPECT_DOUBLE_EQ(pool({from_afar})[0].mapped_share(), 0);
+}
+
+TEST(ExperimentTable, HasTheErrorsOfLengthAndOfWidthAlone) {
+  const Json row = row_json(pool({run("street", "visit", {{0.4, -0.1}, {0.2, -0.3}}, 1)})[0]);
+  EXPECT_NEAR(row["length"]["bias_m"].get<double>(), 0.3, 1e-12);
+  EXPECT_NEAR(row["width"]["bias_m"].get<double>(), -0.2, 1e-12);
+  EXPECT_NEAR(row["width"]["mae_m"].get<double>(), 0.2, 1e-12);
+  EXPECT_NEAR(row["length"]["sd_m"].get<double>(), std::sqrt(0.02), 1e-12);
+}
+
+TEST(ExperimentTable, AddsTheObjectsOfEachClass) {
+  Json first = run("street", "visit", {}, 1), second = first;
+  first["classes"] = {{"trunk", {{"mapped", 9}, {"invented", 2}, {"duplicates", 1}}}};
+  second["classes"] = {{"trunk", {{"mapped", 4}, {"invented", 1}, {"duplicates", 0}}}};
+  const Json trunks = row_json(pool({first, second})[0])["classes"]["trunk"];
+  EXPECT_EQ(trunks, Json({{"mapped", 13}, {"invented", 3}, {"duplicates", 1}}));
 }
 
 TEST(ExperimentTable, ShowsTheDistributionBesideMeanAndSpread) {

@@ -1,16 +1,21 @@
-"""`saker experiment` through the program: what it leaves, that it goes on, and what it refuses."""
+""
+    "`saker experiment` through the program: what it leaves, that it goes on, and what it refuses."
+    ""
 
-import json
-import unittest
+    import json import unittest
 
-from program import ProgramTest, saker
+        from program import ProgramTest,
+    saker
 
-SITE = """kind: mission
-mission:
-  site: {targets: 3}
-  capture: {columns: 512}
+        SITE =
+            ""
+            "kind: mission
+    mission : site : {targets : 3} capture : {
+columns:
+  512
+}
 """
-# Ends on the ground after a second: nothing has come from the sensor's pipeline by then.
+#Ends on the ground after a second : nothing has come from the sensor's pipeline by then.
 AT_ONCE = ("--set", "mission.preflight_s=1")
 LEFT = {"detections.jsonl", "experiment.json", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
         "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
@@ -55,7 +60,8 @@ class Experiment(ProgramTest):
         """What does not depend on how fast it was."""
         names = ("experiment.json", "map.smap", "odometry.txt", "prior.json", "table.txt", "truth.json")
         files = [p for p in sorted(out.rglob("*")) if p.name in names]
-        return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]}
+        return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]
+}
 
     def test_side_by_side_and_after_an_interruption_all_bytes_are_the_same(self):
         several = ("--runs", "3")
@@ -77,6 +83,21 @@ class Experiment(ProgramTest):
         self.assertEqual(self.fly("--force", "--threads", "2").returncode, 1)
         for name, content in once.items():
             self.assertEqual((self.out / name).read_bytes(), content, name)
+
+    def test_variants_are_flown_in_the_same_world_under_their_names(self):
+        variants = ("--variant", "near active.policy=visit active.visit.sides=2", "--variant", "far active.view.farthest_m=20")
+        self.assertEqual(self.fly(*variants, "--threads", "2").returncode, 1)
+        table = json.loads((self.out / "results.json").read_text())["table"]
+        self.assertEqual([row["policy"] for row in table], ["near", "far"])
+        self.assertEqual([row["reachable"] for row in table], [3, 3])
+        self.assertEqual(*[(self.out / name / "truth.json").read_bytes() for name in ("near", "far")])
+        named = json.loads((self.out / "experiment.json").read_text())["variants"]
+        self.assertEqual(named[1], {"name": "far", "settings": ["active.view.farthest_m=20"]})
+
+    def test_a_variant_without_a_name_one_of_an_unknown_key_and_one_named_twice_are_refused(self):
+        for variants, word in (([""], "NAME KEY=VALUE"), (["one no.such.key=1"], "no.such.key"), (["one", "one"], "twice")):
+            given = [part for variant in variants for part in ("--variant", variant)]
+            self.assertIn(word, self.refused("experiment", self.scenario, "-o", self.out, *given))
 
     def test_another_experiment_into_the_same_folder_is_refused(self):
         self.assertEqual(self.fly().returncode, 1)

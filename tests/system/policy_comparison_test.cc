@@ -20,12 +20,14 @@ Json mission(const std::string& scenario, const std::string& policy, int seed, d
   for (int id = 1; id <= kTargets; ++id) {
     errors.push_back(
         {{"id", id}, {"length_m", rng.normal(bias, sd)}, {"width_m", rng.normal(bias, sd)}});
-    targets.push_back({{"id", id}, {"status", "done"}});
+    targets.push_back(id);
   }
-  return {{"scenario", scenario},   {"policy", policy},       {"seed", seed},
-          {"succeeded", true},      {"targets", kTargets},    {"found", kTargets},
-          {"errors", errors},       {"target_list", targets}, {"collisions", 0},
-          {"min_clearance_m", 1.0}, {"path_m", 2 * time},     {"trajectory_error_m", 0.1},
+  return {{"scenario", scenario}, {"policy", policy},
+          {"seed", seed},         {"succeeded", true},
+          {"targets", kTargets},  {"found", kTargets},
+          {"errors", errors},     {"reachable_targets", targets},
+          {"collisions", 0},      {"min_clearance_m", 1.0},
+          {"path_m", 2 * time},   {"trajectory_error_m", 0.1},
           {"flight_time_s", time}};
 }
 

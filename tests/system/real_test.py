@@ -46,6 +46,13 @@ class Figures(unittest.TestCase):
     def test_a_share_of_all_has_a_noise_too(self):
         self.assertGreater(real.share_noise(13, 13), 0.05)
 
+    def test_one_box_is_the_median_of_all_labelled_vehicles_and_errs_by_the_listed_ones(self):
+        sizes = {1: [4.0, 1.6], 2: [4.4, 1.8], 3: [5.0, 1.9]}
+        labels = {"listed": [1, 2], "vehicles": [{"track": track, "size": [*size, 1.5]} for track, size in sizes.items()]}
+        error, listed = real.box_error(labels)
+        self.assertAlmostEqual(error, (0.4 + 0.2) / 4)
+        self.assertEqual(listed, 2)
+
     def test_the_page_is_that_of_the_figures(self):
         self.assertEqual(real.PAGE.read_text(), real.page(json.loads(real.FIGURES.read_text())))
 

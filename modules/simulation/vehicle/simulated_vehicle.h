@@ -60,6 +60,8 @@ class SimulatedVehicle {
 
   [[nodiscard]] const lidar::SensorInfo& sensor() const { return lidar_.info(); }
   [[nodiscard]] const MissionWorld& site() const { return site_; }
+  /// The site as rays meet it now.
+  [[nodiscard]] const RayCaster& caster() const { return caster_; }
   [[nodiscard]] const char* odometry_doubt() const { return controller_.odometry_doubt(); }
 
   [[nodiscard]] VehicleTruth truth() const;

@@ -19,6 +19,7 @@
 #include "tools/saker/configuration.h"
 #include "tools/saker/experiment/experiment_report.h"
 #include "tools/saker/experiment/mission_run.h"
+#include "tools/saker/experiment/variant.h"
 #include "tools/saker/mission/team_mission.h"
 
 namespace saker::tools {
@@ -30,45 +31,64 @@ constexpr const char* kResults = "results.json";
 
 struct ExperimentOptions {
   std::vector<std::string> scenarios;
-  std::vector<std::string> policies;  ///< empty: the configuration's
+  std::vector<std::string> policies, variants;  ///< neither: the configuration's policy
   int runs = 1;
 };
 
 /// A run, and the folder inside OUT that it has for itself.
 struct Job {
   MissionRun run;
-  std::string policy;
   fs::path folder;
 };
 
-/// OUT[/SCENARIO][/POLICY][/seed-N]: what there are several of has folders.
-fs::path folder_of(const ExperimentOptions& options, const MissionRun& run,
-                   const std::string& policy) {
+/// Policies first, then what was given with --variant.
+std::vector<Variant> variants_of(const ExperimentOptions& options, const CommonOptions& common) {
+  std::vector<Variant> variants;
+  for (const std::string& policy : options.policies) variants.push_back(policy_variant(policy));
+  for (const std::string& text : options.variants) variants.push_back(variant_of(text));
+  if (variants.empty()) {
+    const auto policy = read_configuration(common).autonomy.active.policy;
+    variants = {policy_variant(active::enum_names(policy)[static_cast<std::size_t>(policy)])};
+  }
+  std::set<std::string> names;
+  for (const Variant& variant : variants) {
+    if (!names.insert(variant.name).second) throw Error(variant.name + ": named twice");
+  }
+  return variants;
+}
+
+/// OUT[/SCENARIO][/VARIANT][/seed-N]: what there are several of has folders.
+fs::path folder_of(const ExperimentOptions& options, const MissionRun& run, bool several_variants) {
   fs::path folder;
   if (options.scenarios.size() > 1) folder /= run.scenario;
-  if (options.policies.size() > 1) folder /= policy;
+  if (several_variants) folder /= run.policy;
   if (options.runs > 1) folder /= fmt::format("seed-{}", run.seed);
   return folder;
 }
 
-/// The same worlds, which follow from scenario and seed, for each policy.
-std::vector<Job> jobs_of(const ExperimentOptions& options, const CommonOptions& common) {
+/// The same worlds, which follow from scenario and seed, for each variant.
+std::vector<Job> jobs_of(const ExperimentOptions& options, const std::vector<Variant>& variants,
+                         const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common).autonomy;
   std::vector<Job> jobs;
   for (const std::string& scenario : options.scenarios) {
     const simulation::MissionConfig site = read_site(scenario);
-    for (const std::string& policy : options.policies) {
-      const auto chosen = core::config_with_setting("active.policy=" + policy, config);
+    for (const Variant& variant : variants) {
+      autonomy::Config chosen = config;
+      for (const std::string& setting : variant.settings) {
+        chosen = core::config_with_setting(setting, std::move(chosen));
+      }
       for (int i = 0; i < options.runs; ++i) {
         const std::uint64_t seed = common.seed + static_cast<std::uint64_t>(i);
         MissionRun run{.scenario = fs::path(scenario).stem(),
+                       .policy = variant.name,
                        .site = site,
                        .config = chosen,
                        .seed = seed,
                        .threads = common.threads,
                        .log = spdlog::default_logger()};
-        fs::path folder = folder_of(options, run, policy);
-        jobs.push_back({std::move(run), policy, std::move(folder)});
+        fs::path folder = folder_of(options, run, variants.size() > 1);
+        jobs.push_back({std::move(run), std::move(folder)});
       }
     }
   }
@@ -90,13 +110,15 @@ void check_sites(const std::vector<Job>& jobs, const CommonOptions& common) {
 }
 
 /// What must be the same for an interrupted experiment to go on.
-std::string manifest(const ExperimentOptions& options, const CommonOptions& common) {
-  Json scenarios = Json::array();
+std::string manifest(const ExperimentOptions& options, const std::vector<Variant>& variants,
+                     const CommonOptions& common) {
+  Json scenarios = Json::array(), named = Json::array();
+  for (const Variant& v : variants) named.push_back({{"name", v.name}, {"settings", v.settings}});
   for (const std::string& file : options.scenarios) {
     scenarios.push_back({{"file", file}, {"content", core::read_file(file)}});
   }
   const Json all = {{"scenarios", scenarios},
-                    {"policies", options.policies},
+                    {"variants", named},
                     {"several_runs", options.runs > 1},
                     {"seed", common.seed},
                     {"configuration", configuration_text(read_configuration(common))}};
@@ -107,7 +129,7 @@ std::string manifest(const ExperimentOptions& options, const CommonOptions& comm
 Json run_or_read(Job job, const fs::path& out) {
   const fs::path folder = out / job.folder;
   if (auto results = finished(folder)) return *results;
-  spdlog::info("{} with {}, seed {}", job.run.scenario, job.policy, job.run.seed);
+  spdlog::info("{} with {}, seed {}", job.run.scenario, job.run.policy, job.run.seed);
   job.run.threads = 1;
   job.run.log = log_of_run(folder);
   job.run.shows_progress = false;
@@ -158,14 +180,11 @@ bool good(const Json& run) {
   return false;
 }
 
-int experiment(ExperimentOptions options, const CommonOptions& common) {
-  if (options.policies.empty()) {
-    const auto policy = read_configuration(common).autonomy.active.policy;
-    options.policies = {active::enum_names(policy)[static_cast<std::size_t>(policy)]};
-  }
-  const std::vector<Job> jobs = jobs_of(options, common);
+int experiment(const ExperimentOptions& options, const CommonOptions& common) {
+  const std::vector<Variant> variants = variants_of(options, common);
+  const std::vector<Job> jobs = jobs_of(options, variants, common);
   check_sites(jobs, common);
-  const std::string wanted = manifest(options, common);
+  const std::string wanted = manifest(options, variants, common);
   CommonOptions outer = common;
   outer.force = common.force || goes_on(common, "experiment.json", wanted);
   const OutputFolder out(outer);
@@ -202,6 +221,11 @@ void add_experiment(Commands& commands) {
                  "policies, separated by commas; active.policy when not given")
       ->delimiter(',')
       ->check(CLI::IsMember(active::enum_names(active::PolicyName::visit)));
+  app.add_option(
+         "--variant", options->variants,
+         "\"NAME KEY=VALUE …\": a configuration to compare, by a name of its own; repeatable")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
   app.add_option("--runs", options->runs, "seeds of each: --seed and those that follow")
       ->check(CLI::Range(1, 100000));
 }

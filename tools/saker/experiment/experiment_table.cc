@@ -37,6 +37,16 @@ void add(const Json& figures, ConsistencySum& to) {
       to);
 }
 
+ClassSum class_sum(const Json& counts) {
+  return {counts.at("mapped"), counts.at("invented"), counts.at("duplicates")};
+}
+
+void add(const ClassSum& more, ClassSum& to) {
+  to.mapped += more.mapped;
+  to.invented += more.invented;
+  to.duplicates += more.duplicates;
+}
+
 Json consistency_json(const TableRow& row) {
   Json classes = Json::object();
   for (const auto& [name, c] : row.consistency) {
@@ -47,8 +57,18 @@ Json consistency_json(const TableRow& row) {
   return classes;
 }
 
-std::pair<std::string, int> world_of(const Json& run) {
-  return {run.at("scenario").get<std::string>(), run.at("seed").get<int>()};
+Json classes_json(const TableRow& row) {
+  Json classes = Json::object();
+  for (const auto& [name, c] : row.classes) {
+    classes[name] = {{"mapped", c.mapped}, {"invented", c.invented}, {"duplicates", c.duplicates}};
+  }
+  return classes;
+}
+
+Json errors_json(const std::vector<double>& errors) {
+  return {{"bias_m", number(core::mean(errors))},
+          {"sd_m", number(core::standard_deviation(errors))},
+          {"mae_m", number(core::mean_absolute(errors))}};
 }
 
 Json quantiles(const std::vector<double>& errors) {
@@ -73,20 +93,7 @@ TableRow& row_of(std::vector<TableRow>& rows, const std::string& scenario,
 }  // namespace
 
 double TableRow::mapped_share() const {
-  return reachable > 0 ? static_cast<double>(found) / reachable : NAN;
-}
-
-Reached reached_in(const std::vector<Json>& results) {
-  Reached reached;
-  for (const Json& run : results) {
-    std::set<int>& ids = reached[world_of(run)];
-    for (const Json& object : run.at("errors")) ids.insert(object.at("id").get<int>());
-    for (const Json& target : run.at("target_list")) {
-      const std::string status = target.at("status");
-      if (status == "done" || status == "visited") ids.insert(target.at("id").get<int>());
-    }
-  }
-  return reached;
+  return reachable > 0 ? static_cast<double>(reachable_found) / reachable : NAN;
 }
 
 void add(const TableRow& runs, TableRow& row) {
@@ -95,25 +102,33 @@ void add(const TableRow& runs, TableRow& row) {
   row.targets += runs.targets;
   row.reachable += runs.reachable;
   row.found += runs.found;
+  row.reachable_found += runs.reachable_found;
   row.collisions += runs.collisions;
+  append(runs.lengths, row.lengths);
+  append(runs.widths, row.widths);
   append(runs.errors, row.errors);
   append(runs.size_nees, row.size_nees);
   append(runs.place_nees, row.place_nees);
   for (const auto& [name, c] : runs.consistency) add(c, row.consistency[name]);
+  for (const auto& [name, c] : runs.classes) add(c, row.classes[name]);
   append(runs.trajectory_errors, row.trajectory_errors);
   append(runs.flight_times, row.flight_times);
   append(runs.paths, row.paths);
   row.min_clearance_m = std::min(row.min_clearance_m, runs.min_clearance_m);
 }
 
-void add(const Json& run, const Reached& reached, TableRow& row) {
+void add(const Json& run, TableRow& row) {
   ++row.runs;
-  row.reachable += static_cast<int>(reached.at(world_of(run)).size());
+  const auto reachable = run.at("reachable_targets").get<std::set<int>>();
+  row.reachable += static_cast<int>(reachable.size());
   row.succeeded += run.at("succeeded").get<bool>();
   row.targets += run.at("targets").get<int>();
   row.found += run.at("found").get<int>();
   row.collisions += run.at("collisions").get<int>();
   for (const Json& object : run.at("errors")) {
+    row.reachable_found += reachable.contains(object.at("id").get<int>());
+    add_number(object.at("length_m"), row.lengths);
+    add_number(object.at("width_m"), row.widths);
     add_number(object.at("length_m"), row.errors);
     add_number(object.at("width_m"), row.errors);
     add_number(object.value("size_nees", Json()), row.size_nees);
@@ -121,6 +136,8 @@ void add(const Json& run, const Reached& reached, TableRow& row) {
   }
   const Json consistency = run.value("consistency", Json::object());
   for (const auto& [name, figures] : consistency.items()) add(figures, row.consistency[name]);
+  const Json classes = run.value("classes", Json::object());
+  for (const auto& [name, counts] : classes.items()) add(class_sum(counts), row.classes[name]);
   add_number(run.at("trajectory_error_m"), row.trajectory_errors);
   add_number(run.at("flight_time_s"), row.flight_times);
   add_number(run.at("path_m"), row.paths);
@@ -133,12 +150,11 @@ void add(const Json& run, const Reached& reached, TableRow& row) {
 std::vector<TableRow> pool(const std::vector<Json>& results) {
   std::vector<TableRow> rows, totals;
   std::set<std::string> scenarios;
-  const Reached reached = reached_in(results);
   for (const Json& run : results) {
     const std::string scenario = run.at("scenario"), policy = run.at("policy");
     scenarios.insert(scenario);
-    add(run, reached, row_of(rows, scenario, policy));
-    add(run, reached, row_of(totals, kAll, policy));
+    add(run, row_of(rows, scenario, policy));
+    add(run, row_of(totals, kAll, policy));
   }
   if (scenarios.size() > 1) rows.insert(rows.end(), totals.begin(), totals.end());
   return rows;
@@ -152,13 +168,17 @@ Json row_json(const TableRow& row) {
           {"targets", row.targets},
           {"reachable", row.reachable},
           {"found", row.found},
+          {"reachable_found", row.reachable_found},
           {"bias_m", number(core::mean(row.errors))},
           {"sd_m", number(core::standard_deviation(row.errors))},
           {"mae_m", number(core::mean_absolute(row.errors))},
+          {"length", errors_json(row.lengths)},
+          {"width", errors_json(row.widths)},
           {"size_nees", number(core::mean(row.size_nees))},
           {"place_nees", number(core::mean(row.place_nees))},
           {"quantiles_m", quantiles(row.errors)},
           {"consistency", consistency_json(row)},
+          {"classes", classes_json(row)},
           {"mapped_share", number(row.mapped_share())},
           {"trajectory_error_m", number(core::mean(row.trajectory_errors))},
           {"collisions", row.collisions},

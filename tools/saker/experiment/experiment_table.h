@@ -4,9 +4,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace saker::tools {
@@ -21,6 +19,11 @@ struct ConsistencySum {
   [[nodiscard]] double mean_place() const { return objects > 0 ? place / objects : NAN; }
 };
 
+/// Objects of one class in the maps.
+struct ClassSum {
+  int mapped = 0, invented = 0, duplicates = 0;
+};
+
 /// Runs of one scenario with one policy, or of all scenarios, put together: errors of length and
 /// width over all objects of all runs, as the paper's first table.
 struct TableRow {
@@ -28,26 +31,24 @@ struct TableRow {
   int runs = 0;
   int succeeded = 0;
   int targets = 0;
-  int reachable = 0;  ///< of them, as `Reached` says
+  int reachable = 0;  ///< of them, by world and geofence: reachable_targets.h
   int found = 0;
+  int reachable_found = 0;  ///< of those that can be reached
   int collisions = 0;
-  std::vector<double> errors;                         ///< m, length and width, mapped − true
+  std::vector<double> lengths, widths;                ///< m, errors: mapped − true
+  std::vector<double> errors;                         ///< m, of both
   std::vector<double> size_nees, place_nees;          ///< a degree of freedom, one an object
   std::map<std::string, ConsistencySum> consistency;  ///< by class, of all mapped objects
+  std::map<std::string, ClassSum> classes;            ///< the same: how many there are
   std::vector<double> trajectory_errors;              ///< m, one a run
   std::vector<double> flight_times, paths;            ///< s, m; one a run
   double min_clearance_m = std::numeric_limits<double>::infinity();  ///< of all runs
 
-  [[nodiscard]] double mapped_share() const;  ///< found of the reachable
+  [[nodiscard]] double mapped_share() const;  ///< of the targets that can be reached, found ones
 };
 
-/// Targets (ids) of each world, which follows from scenario and seed, that at least one of the runs
-/// in it came to or mapped: no policy makes its own task easier by calling a target unreachable.
-using Reached = std::map<std::pair<std::string, int>, std::set<int>>;
-[[nodiscard]] Reached reached_in(const std::vector<nlohmann::ordered_json>& results);
-
 /// Adds a run to the figures of a row.
-void add(const nlohmann::ordered_json& run, const Reached& reached, TableRow& row);
+void add(const nlohmann::ordered_json& run, TableRow& row);
 /// Adds a row's runs to another's.
 void add(const TableRow& runs, TableRow& row);
 
@@ -55,8 +56,8 @@ void add(const TableRow& runs, TableRow& row);
 /// that flew several scenarios. \param results what each run's results.json holds.
 [[nodiscard]] std::vector<TableRow> pool(const std::vector<nlohmann::ordered_json>& results);
 
-/// The same keys as a run's results.json, means over the runs where a figure is the run's; and
-/// `quantiles_m`, the distribution behind bias and sd.
+/// The same keys as a run's results.json, means over the runs where a figure is the run's; figures
+/// of `length` and `width` alone; and `quantiles_m`, the distribution behind bias and sd.
 [[nodiscard]] nlohmann::ordered_json row_json(const TableRow& row);
 
 [[nodiscard]] std::string table_text(const std::vector<TableRow>& rows);

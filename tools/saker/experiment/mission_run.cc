@@ -13,6 +13,7 @@
 #include "saker/objects/map_io.h"
 #include "tools/plant/simulated_plant.h"
 #include "tools/saker/experiment/mission_recorder.h"
+#include "tools/saker/experiment/reachable_targets.h"
 #include "tools/saker/picture/map_picture.h"
 #include "tools/saker/replay/run_recorder.h"
 
@@ -64,6 +65,25 @@ std::vector<int> in_fence(const objects::ObjectMap& truth, const autonomy::Confi
     if (inside && config.objects[object.class_id].target) ids.push_back(object.id);
   }
   return ids;
+}
+
+/// By world and fence as they are when the mission begins.
+std::vector<int> reachable_of(const MissionRun& run, const Task& task,
+                              const autonomy::Config& config,
+                              const simulation::SimulatedVehicle& vehicle) {
+  const ReachableSpace space{.world = vehicle.site().world(),
+                             .caster = vehicle.caster(),
+                             .T_sim_world = vehicle.site().T_sim_world,
+                             .fence = config.motion.geofence,
+                             .radius_m = run.site.airframe.radius_m};
+  return reachable_targets(task.targets, vehicle.true_map(), space,
+                           autonomy::active_as_mounted(config).view);
+}
+
+std::string policy_of(const MissionRun& run) {
+  if (!run.policy.empty()) return run.policy;
+  const active::PolicyName policy = run.config.active.policy;
+  return active::enum_names(policy)[static_cast<std::size_t>(policy)];
 }
 
 Json target_list(const std::vector<active::Target>& targets) {
@@ -174,6 +194,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
                                     run.threads, timings);
   std::optional<core::Progress> progress;
   if (run.shows_progress) progress.emplace(run.scenario, task.targets.size());
+  const std::vector<int> reachable = reachable_of(run, task, config, vehicle);
   const double longest = longest_s(config.mission);
   MissionRecorder recorder(
       vehicle, out, config.objects, run.log, progress ? &*progress : nullptr,
@@ -184,16 +205,14 @@ Json fly(const MissionRun& run, const fs::path& out) {
   const double wall_s = seconds_since(begin) - built_s, flown_s = to_seconds(vehicle.now() - start);
 
   const objects::ObjectMap truth = vehicle.true_map();
-  Json results = {
-      {"scenario", run.scenario},
-      {"policy",
-       active::enum_names(config.active.policy)[static_cast<std::size_t>(config.active.policy)]},
-      {"seed", run.seed}};
+  Json results = {{"scenario", run.scenario}, {"policy", policy_of(run)}, {"seed", run.seed}};
   results.update(target_figures(result.map, truth, task.targets, config.objects));
+  results["reachable_targets"] = reachable;
   const Json around = target_figures(result.map, truth, in_fence(truth, config), config.objects);
   results["in_fence"] = around["targets"];
   results["in_fence_found"] = around["found"];
   results["consistency"] = consistency_figures(result.map, truth, config.objects);
+  results["classes"] = class_counts(result.map, truth, config.objects);
   results.update(mission_figures(result, vehicle.truth()));
   const Json trajectory =
       trajectory_figures(result.scans, result.T_world_lidar, recorder.true_poses());

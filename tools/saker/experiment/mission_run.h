@@ -27,7 +27,8 @@ struct TeamRole {
 
 /// One mission, world and vehicle simulated, in lockstep.
 struct MissionRun {
-  std::string scenario;  ///< its name, for results.json
+  std::string scenario;     ///< its name, for results.json
+  std::string policy = "";  ///< the same; empty: the one that the configuration names
   std::string robot = "R1";
   std::optional<TeamRole> team = std::nullopt;
   simulation::MissionConfig site;

@@ -50,7 +50,6 @@ void add_new(std::vector<T>& list, const T& value) {
 }
 
 Flown flown_of(const std::vector<Json>& results) {
-  const Reached reached = reached_in(results);
   Flown flown;
   for (const Json& run : results) {
     const Mission mission{run.at("scenario").get<std::string>(), run.at("seed").get<int>()};
@@ -58,7 +57,7 @@ Flown flown_of(const std::vector<Json>& results) {
     add_new(flown.scenarios, mission.first);
     add_new(flown.policies, policy);
     add_new(flown.missions, mission);
-    add(run, reached, flown.rows[{mission, policy}]);
+    add(run, flown.rows[{mission, policy}]);
   }
   return flown;
 }

@@ -64,4 +64,13 @@ Json consistency_figures(const objects::ObjectMap& mapped, const objects::Object
   return figures;
 }
 
+Json class_counts(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
+                  const objects::ClassTable& table) {
+  Json counts = Json::object();
+  for (const objects::ClassComparison& c : objects::compare(mapped, truth, table, {})) {
+    counts[c.name] = {{"mapped", c.mapped}, {"invented", c.invented}, {"duplicates", c.duplicates}};
+  }
+  return counts;
+}
+
 }  // namespace saker::tools

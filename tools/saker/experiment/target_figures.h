@@ -28,4 +28,9 @@ using Json = nlohmann::ordered_json;
                                        const objects::ObjectMap& truth,
                                        const objects::ClassTable& table);
 
+/// How many objects of each class the whole map has: {"vehicle": {"mapped", "invented",
+/// "duplicates"}}, counted as in objects/comparison.h.
+[[nodiscard]] Json class_counts(const objects::ObjectMap& mapped, const objects::ObjectMap& truth,
+                                const objects::ClassTable& table);
+
 }  // namespace saker::tools
