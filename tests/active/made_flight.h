@@ -21,9 +21,9 @@ inline ActiveConfig two_sided(ActiveConfig config = {}) {
   return config;
 }
 
-/// A vehicle that flies straight to what the policy says, a decision a second.
+/// A vehicle that flies straight to what the tour says, a decision a second.
 struct Flight {
-  explicit Flight(std::unique_ptr<Policy> made) : policy(std::move(made)) {}
+  explicit Flight(TargetTour made) : tour(std::move(made)) {}
 
   void map(const std::vector<objects::Cuboid>& cars) {
     input.map = std::make_shared<const objects::ObjectMap>(map_of(cars));
@@ -33,7 +33,7 @@ struct Flight {
   const ActivePlan& decide() {
     input.stamp += kNanosecondsPerSecond;
     input.T_world_body.translation() = body;
-    plan = policy->plan(input, kBudget);
+    plan = tour.plan(input, kBudget);
     if (plan.goal && (goals.empty() || goals.back().id != plan.goal->id)) {
       goals.push_back(*plan.goal);
     }
@@ -51,9 +51,9 @@ struct Flight {
     return most;
   }
 
-  [[nodiscard]] const Target& target(int index) const { return policy->targets()[index]; }
+  [[nodiscard]] const Target& target(int index) const { return tour.targets()[index]; }
 
-  std::unique_ptr<Policy> policy;
+  TargetTour tour;
   ActiveInput input;
   ActivePlan plan;
   Eigen::Vector3d body = {0, 0, 3};

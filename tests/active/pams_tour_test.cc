@@ -1,5 +1,3 @@
-#include "saker/active/pams.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "made_flight.h"
 #include "made_model.h"
 #include "made_pams_flight.h"
+#include "saker/active/tour/target_tour.h"
 #include "saker/core/rng.h"
 
 namespace saker::active {
@@ -146,7 +145,7 @@ TEST_P(BothPolicies, WithMotionThatRefusesEverythingEnd) {
   PamsFlight flight(GetParam(), kStreet);
   int decisions = 0;
   while (decisions < 1000 && flight.decide().goal) {
-    flight.policy->refuse(flight.plan.goal->id, "no path");
+    flight.tour.refuse(flight.plan.goal->id, "no path");
     ++decisions;
   }
   EXPECT_LE(decisions, 4 * kGoals.attempts * kGoals.most_refusals);
@@ -156,7 +155,7 @@ TEST_P(BothPolicies, WithMotionThatRefusesEverythingEnd) {
 TEST_P(BothPolicies, DoNotOfferARefusedViewpointAgainNorOneBesideIt) {
   PamsFlight flight(GetParam(), {car(12, 0)});
   const Viewpoint refused = *flight.decide().goal;
-  flight.policy->refuse(refused.id, "no path");
+  flight.tour.refuse(refused.id, "no path");
   flight.decide();
   ASSERT_TRUE(flight.plan.goal);
   EXPECT_GE((flight.plan.goal->position - refused.position).norm(), kGoals.refused_m);
@@ -240,26 +239,20 @@ TEST_P(BothPolicies, FlyToNoMoreViewpointsOfATargetThanTheyMay) {
 }
 
 TEST_P(BothPolicies, MapATargetThatIsAddedOnTheWay) {
-  std::unique_ptr<PamsPolicy> made(static_cast<PamsPolicy*>(
-      PamsFlight::policy_for(GetParam(), {car(20, 5)}, everywhere, oblique_model()).release()));
-  TargetList& list = made->target_list();
-  Flight flight(std::move(made));
+  PamsFlight flight(GetParam(), {car(20, 5)});
   const std::vector<Cuboid> both = {car(20, 5), car(35, 5)};
   flight.map(both);
   flight.decide();
-  list.add(vehicle(1, both[1]), true);
+  flight.tour.target_list().add(vehicle(1, both[1]), true);
   EXPECT_LT(flight.fly(600), 600);
   EXPECT_EQ(flight.plan.done, 2);
 }
 
 TEST_P(BothPolicies, LeaveATargetThatIsDismissed) {
-  std::unique_ptr<PamsPolicy> made(static_cast<PamsPolicy*>(
-      PamsFlight::policy_for(GetParam(), {car(20, 5)}, everywhere, oblique_model()).release()));
-  TargetList& list = made->target_list();
-  Flight flight(std::move(made));
+  PamsFlight flight(GetParam(), {car(20, 5)});
   flight.map({car(20, 5)});
   ASSERT_TRUE(flight.decide().goal);
-  list.dismiss(0, "nothing there");
+  flight.tour.target_list().dismiss(0, "nothing there");
   EXPECT_EQ(flight.decide().status, ActiveStatus::finished);
 }
 
@@ -348,7 +341,7 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
   pams.price_per_s = std::min(pams.price_per_s, 0.05);
   pams.dwell_s = pams.window_s = 1.5;  // more than a decision: one on the way counts for no cell
   PamsFlight flight(pams, cars);
-  Looks looks(36, 0.5);
+  ViewHistory views(36, 0.5);
   Target target = targets[0];
   target.extent = cars[0];
   double flown_m = 0;
@@ -357,11 +350,11 @@ TEST_P(BothPolicies, PredictOfAViewpointWhatIsKnownOnceItWasSeenFrom) {
     flight.fly(1);
     flown_m += (flight.body - before).norm();
     if (in_field_of_view(before, 0, target.extent, config.view, 0)) {
-      looks.add(before, target.place(), 1, flown_m);
+      views.add(before, target.place(), 1, flown_m);
     }
   }
   ASSERT_FALSE(flight.flown.empty());
-  const Knowledge known(target, looks, model, pams);
+  const Knowledge known(target, views, model, pams);
   Eigen::Matrix4d after = known.belief().covariance();
   if (!GetParam().common_counts) after += model.common(target.class_id);
   const Eigen::Matrix4d predicted = flight.flown.front().covariance;

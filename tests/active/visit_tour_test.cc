@@ -1,11 +1,10 @@
-#include "saker/active/visit.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <set>
 
 #include "made_flight.h"
+#include "saker/active/tour/target_tour.h"
 #include "saker/core/rng.h"
 
 namespace saker::active {
@@ -19,11 +18,11 @@ const objects::ClassTable kTable;
 const VisitConfig kVisit;
 const GoalsConfig kGoals;
 
-/// Of policy `visit`, or of what the configuration says.
+/// With policy `visit`, or with what the configuration says.
 struct Flight : made::Flight {
   explicit Flight(const std::vector<Cuboid>& cars, const InGeofence& in_geofence = everywhere,
                   const ActiveConfig& config = two_sided())
-      : made::Flight(make_policy(config, kTable, map_of(cars), in_geofence)) {}
+      : made::Flight(make_tour(config, kTable, map_of(cars), in_geofence)) {}
 };
 
 const std::vector<Cuboid> kStreet = {car(20, 5), car(40, -4, 0.5), car(60, 6, 1.2), car(80, -8, 3)};
@@ -243,7 +242,7 @@ TEST(Visit, MotionThatRefusesEverythingEnds) {
   Flight flight(kStreet);
   int decisions = 0;
   while (decisions < 1000 && flight.decide().goal) {
-    flight.policy->refuse(flight.plan.goal->id, "no path");
+    flight.tour.refuse(flight.plan.goal->id, "no path");
     ++decisions;
   }
   EXPECT_EQ(decisions, 4 * kGoals.attempts * kGoals.most_refusals);
@@ -269,7 +268,7 @@ TEST(Visit, RefusedViewpointIsNotOfferedAgainNorOneBesideIt) {
   Flight flight({car(20, 0)});
   flight.decide();
   const Viewpoint refused = *flight.plan.goal;
-  flight.policy->refuse(refused.id, "no path");
+  flight.tour.refuse(refused.id, "no path");
   flight.decide();
   EXPECT_GE((flight.plan.goal->position - refused.position).norm(), kGoals.refused_m);
 }
@@ -278,7 +277,7 @@ TEST(Visit, RefusalOfAnotherViewpointThanTheGoalChangesNothing) {
   Flight flight({car(20, 0)});
   flight.decide();
   const int goal = flight.plan.goal->id;
-  for (int i = 0; i < 10; ++i) flight.policy->refuse(goal + 1, "late news");
+  for (int i = 0; i < 10; ++i) flight.tour.refuse(goal + 1, "late news");
   EXPECT_EQ(flight.decide().goal->id, goal);
 }
 
@@ -288,7 +287,7 @@ TEST(Visit, TargetThatWasRefusedIsTriedAgainAfterTheOthers) {
   Flight flight({car(15, 0), car(40, 0)}, everywhere, one_way);
   for (int i = 0; i < kGoals.most_refusals; ++i) {
     EXPECT_EQ(flight.decide().goal->target_id, 0);
-    flight.policy->refuse(flight.plan.goal->id, "no path");
+    flight.tour.refuse(flight.plan.goal->id, "no path");
   }
   EXPECT_EQ(flight.decide().goal->target_id, 1);
   EXPECT_LT(flight.fly(300), 300);
@@ -300,7 +299,7 @@ TEST(Visit, InputThatIsNotFiniteOrNotNewerChangesNothing) {
   flight.decide();
   const int goal = flight.plan.goal->id;
   ActiveInput old = flight.input;
-  EXPECT_EQ(flight.policy->plan(old, kBudget).status, ActiveStatus::invalid);
+  EXPECT_EQ(flight.tour.plan(old, kBudget).status, ActiveStatus::invalid);
   const Eigen::Vector3d body = flight.body;
   flight.body.setConstant(NAN);
   EXPECT_EQ(flight.decide().status, ActiveStatus::invalid);
@@ -326,7 +325,8 @@ TEST(Visit, SaysWhyEachCandidateIsRefused) {
   Flight flight({car(20, 0)}, [](const Eigen::Vector3d& p) { return p.y() > -9; });
   flight.see(grid);
   std::set<Refusal> reasons;
-  for (const Candidate& candidate : flight.decide().candidates) reasons.insert(candidate.refusal);
+  for (const ViewpointCandidate& candidate : flight.decide().candidates)
+    reasons.insert(candidate.refusal);
   EXPECT_TRUE(reasons.contains(Refusal::none));
   EXPECT_TRUE(reasons.contains(Refusal::outside_geofence));
   EXPECT_TRUE(reasons.contains(Refusal::occupied));

@@ -2,6 +2,11 @@
 
 #include <Eigen/Core>
 
+/// What is known of an object's place and size, and what a view adds.
+///
+/// Reads covariances, makes beliefs and their entropy. Frames: [x, y, length, width] in the
+/// object's own frame, m². Method: an information filter (the paper, "Uncertainty minimization").
+/// Cost: a view is one sum of 8×8, an entropy one solution and two determinants of 4×4.
 namespace saker::active {
 
 /// Covariance of an object's [x, y, length, width] or [x, y], m²: 4×4 or 2×2, on the stack.
@@ -10,7 +15,7 @@ using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4
 /// Σ⁻¹ of [x, y, length, width] and of what hides the front, the rear, the left and the right face.
 using Information = Eigen::Matrix<double, 8, 8>;
 
-/// How a view measures an object. Where it does not look at a face, this lies farther out by
+/// How a view measures an object. A face that it does not see lies farther out by
 /// `hidden` · u, with one u ~ N(0, 1) a face that is the same in all views: as many as there are
 /// from one side, they do not tell where the other one is.
 struct Measured {
@@ -18,7 +23,7 @@ struct Measured {
   Eigen::Vector4d hidden = Eigen::Vector4d::Zero();  ///< m, of front, rear, left and right
 };
 
-/// What a view tells, zero where it says nothing.
+/// The information of a view, zero where it says nothing.
 /// \param drift  m², variance that x and y have beside: the pose's, since the object was first
 /// seen.
 [[nodiscard]] Information information_of(const Measured& measured, double drift);

@@ -2,9 +2,13 @@
 
 #include <Eigen/Core>
 
-#include "saker/active/belief.h"
+#include "saker/active/belief/belief.h"
 #include "saker/core/config.h"
 
+/// What a view tells of each face of a box.
+///
+/// Reads the fitted covariance of a view and where the eye is, makes the view's measurement.
+/// Frames: the box's own. Method: one row of information for each face. Cost: four rows of 4.
 namespace saker::active {
 
 struct FacesConfig {
@@ -25,14 +29,14 @@ struct FacesConfig {
   }
 };
 
-/// How a view measures a box, face by face: each face that the eye looks at as well as the fitted
-/// model says of where it is; the others in those windows alone that show the box from end to end,
-/// and only as well as their upper edges tell, which is the same in all views from one side.
+/// How a view measures a box, face by face. A face that the eye sees is measured as well as the
+/// fitted model says. The others are measured in those windows alone that show the box from end to
+/// end, and only as well as their upper edges tell, which is the same in all views from one side.
 /// \param covariance  of [x, y, length, width], m²: of a window that shows both ends
-/// \param whole       share of such windows
+/// \param complete_share  of windows that show the box from end to end
 /// \param eye         in the box's frame, m
 /// \param size        length and width, m
-[[nodiscard]] Measured by_faces(const Covariance& covariance, double whole,
+[[nodiscard]] Measured by_faces(const Covariance& covariance, double complete_share,
                                 const Eigen::Vector2d& eye, const Eigen::Vector2d& size,
                                 const FacesConfig& config);
 

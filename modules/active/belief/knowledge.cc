@@ -1,4 +1,4 @@
-#include "saker/active/knowledge.h"
+#include "saker/active/belief/knowledge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ Covariance counted_common(const Target& target, const ViewModel& model, const Pa
   return config.common_counts ? common : Covariance(0 * common);
 }
 
-/// What one look tells, if x and y have drifted since the first one.
+/// What one view contributes, if x and y have drifted since the first one.
 Information information(const Measured& measured, double flown_m, const PamsConfig& config) {
   const double drift = config.drift_counts ? config.drift_m * config.drift_m * flown_m : 0;
   return information_of(measured, drift);
@@ -54,7 +54,7 @@ Covariance prior_covariance(const PamsConfig& config, bool cylinder) {
   return Covariance(variances.head(cylinder ? 2 : 4).asDiagonal());
 }
 
-Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& model,
+Knowledge::Knowledge(const Target& target, const ViewHistory& views, const ViewModel& model,
                      const PamsConfig& config)
     : common_(counted_common(target, model, config)),
       belief_(prior_covariance(config, is_cylinder(target.class_id, model)), common_) {
@@ -63,12 +63,12 @@ Knowledge::Knowledge(const Target& target, const Looks& looks, const ViewModel& 
     Information weighted = Information::Zero();  // Σ seconds · information
   };
   std::map<int, Cell> cells;
-  for (const Looks::Look& look : looks.all()) {
-    const PredictedView view = predicted(look.eye, target, model, config);
+  for (const ViewHistory::Dwell& dwell : views.dwells()) {
+    const PredictedView view = predicted(dwell.eye, target, model, config);
     Cell& cell = cells[view.cell];
-    cell.seconds += look.seconds;
+    cell.seconds += dwell.seconds;
     cell.weighted +=
-        look.seconds * information(view.measured, look.flown_m - looks.first_m(), config);
+        dwell.seconds * information(view.measured, dwell.flown_m - views.first_m(), config);
   }
   for (const auto& [id, cell] : cells) {
     if (cell.seconds < config.dwell_s) continue;
@@ -86,7 +86,7 @@ Belief Knowledge::expected(const Covariance& covariance, const Knowledge& then) 
   return belief;
 }
 
-/// By which the variances of the map exceed those of the looks; 1 below two views, which cannot
+/// By which the variances of the map exceed those of the views; 1 below two views, which cannot
 /// contradict each other.
 double Knowledge::scatter_of(const Belief& map) const {
   if (cells_.size() < 2) return 1;
@@ -94,7 +94,7 @@ double Knowledge::scatter_of(const Belief& map) const {
   return std::max(1.0, std::exp(2 * excess / static_cast<double>(common_.rows())));
 }
 
-Belief map_belief(const Target& target, const Looks& held, const Looks& until,
+Belief map_belief(const Target& target, const ViewHistory& held, const ViewHistory& until,
                   const ViewModel& model, const PamsConfig& config) {
   PamsConfig of_windows = config;
   of_windows.dwell_s = config.window_s;

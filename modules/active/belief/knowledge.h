@@ -2,12 +2,17 @@
 
 #include <map>
 
-#include "saker/active/belief.h"
-#include "saker/active/looks.h"
-#include "saker/active/pams_config.h"
-#include "saker/active/targets.h"
-#include "saker/active/view_model.h"
+#include "saker/active/belief/belief.h"
+#include "saker/active/belief/view_history.h"
+#include "saker/active/belief/view_model.h"
+#include "saker/active/tour/targets.h"
+#include "saker/active/views/pams_config.h"
 
+/// What views tell of a target.
+///
+/// Reads the target's estimate, its views and the fitted model of their errors, makes its belief.
+/// Frames: eyes are in `world`, covariances of [x, y, length, width] in the target's own frame, m².
+/// Method: the paper, "Uncertainty minimization". Cost: one prediction for each dwell.
 namespace saker::active {
 
 /// How a target is seen from `eye` (world), as the class's model asks for it.
@@ -19,17 +24,18 @@ struct PredictedView {
   Measured measured;
 };
 
-/// How a view from `eye` (world) measures the target. One that shows it from end to end in one of
-/// n windows tells a nth; told face by face, of those that it does not look at.
+/// How a view from `eye` (world) measures the target. A view that shows it from end to end in one
+/// of n windows has a nth of the information; where faces count, this holds for the faces that the
+/// view does not see.
 [[nodiscard]] PredictedView predicted(const Eigen::Vector3d& eye, const Target& target,
                                       const ViewModel& model, const PamsConfig& config);
 
-/// What the flight so far tells of one target: the paper's recursion over the cells of the model
-/// from which it was in view for a dwell. However long that was, a cell counts once: with the mean
+/// The belief of one target by its views: the paper's recursion over the cells of the model from
+/// which it was in view for a dwell. However long that was, a cell counts once: with the mean
 /// information of its views.
 class Knowledge {
  public:
-  Knowledge(const Target& target, const Looks& looks, const ViewModel& model,
+  Knowledge(const Target& target, const ViewHistory& views, const ViewModel& model,
             const PamsConfig& config);
 
   [[nodiscard]] const Belief& belief() const { return belief_; }
@@ -37,7 +43,7 @@ class Knowledge {
   [[nodiscard]] int cells() const { return static_cast<int>(cells_.size()); }
 
   /// What a map that knows the object to `covariance` (given the poses) by now will know after more
-  /// looks. Where it knows less than these looks should have told, its views contradict each other,
+  /// views. Where it knows less than the views so far should have told, they contradict each other,
   /// and further ones will: they tell so much less, too.
   /// \param then  of the same target after them
   [[nodiscard]] Belief expected(const Covariance& covariance, const Knowledge& then) const;
@@ -50,11 +56,12 @@ class Knowledge {
   std::map<int, Information> cells_;  ///< that count, and their information
 };
 
-/// What the map will know of the target when it holds the looks `until`; SLAM counts a cell from
+/// What the map will know of the target when it holds the views `until`; SLAM counts a cell from
 /// its first window on.
 /// \param held those of `until` that it holds by now
-[[nodiscard]] Belief map_belief(const Target& target, const Looks& held, const Looks& until,
-                                const ViewModel& model, const PamsConfig& config);
+[[nodiscard]] Belief map_belief(const Target& target, const ViewHistory& held,
+                                const ViewHistory& until, const ViewModel& model,
+                                const PamsConfig& config);
 
 /// [x, y, length, width] or [x, y] before the first view.
 [[nodiscard]] Covariance prior_covariance(const PamsConfig& config, bool cylinder);

@@ -5,14 +5,18 @@
 
 #include "saker/core/time.h"
 
+/// From where a target was in view, and for how long.
+///
+/// Reads the vehicle's pose while a target is in view, makes dwells in bins of direction and range.
+/// These are facts of the flight. What they are worth follows from the target's estimate, which
+/// changes: `Knowledge` assigns them to cells of the uncertainty model anew each time.
+/// Frames: eyes and targets are in `world`. Cost: linear in the bins, of which there are never
+/// many.
 namespace saker::active {
 
-/// From where a target was in view, and for how long: facts of the flight, in bins of direction and
-/// range so that there are never many. What they are worth follows from the target's estimate,
-/// which changes: the cells are looked up anew each time.
-class Looks {
+class ViewHistory {
  public:
-  struct Look {
+  struct Dwell {
     Eigen::Vector3d eye = Eigen::Vector3d::Constant(NAN);  ///< world, m, mean
     double seconds = 0;
     double flown_m = NAN;  ///< by the vehicle since the tour began, mean
@@ -21,40 +25,41 @@ class Looks {
 
   /// \param bearings directions that are told apart.
   /// \param range_step_m ranges that are.
-  Looks(int bearings, double range_step_m) : bearings_(bearings), range_step_m_(range_step_m) {}
+  ViewHistory(int bearings, double range_step_m)
+      : bearings_(bearings), range_step_m_(range_step_m) {}
 
   void add(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double seconds,
            double flown_m);
 
-  [[nodiscard]] const std::vector<Look>& all() const { return looks_; }  ///< in the order of time
+  [[nodiscard]] const std::vector<Dwell>& dwells() const { return dwells_; }  ///< by time
 
-  /// Seconds of those that lie within `near_m` of `eye`.
+  /// Seconds of the dwells that lie within `near_m` of `eye`.
   [[nodiscard]] double seconds_near(const Eigen::Vector3d& eye, double near_m) const;
 
-  /// When the first of them began, m flown; NaN without any.
+  /// The way flown when the first dwell began, m; NaN without any.
   [[nodiscard]] double first_m() const { return first_m_; }
 
  private:
   int bearings_;
   double range_step_m_;
   double first_m_ = NAN;
-  std::vector<Look> looks_;  ///< at most one a bin: bearings × ranges in the field of view
+  std::vector<Dwell> dwells_;  ///< at most one a bin: bearings × ranges in the field of view
 };
 
-/// The looks at a target so far, and those of them that a map, which is always late, holds by now.
-class LooksAndMap {
+/// The views of a target so far, and those of them that the map holds by now: it is always late.
+class MappedViewHistory {
  public:
-  explicit LooksAndMap(const Looks& none) : so_far_(none), in_map_(none) {}
+  explicit MappedViewHistory(const ViewHistory& none) : so_far_(none), in_map_(none) {}
 
-  /// As `Looks::add`. \param until when the look ended
+  /// As `ViewHistory::add`. \param until when the view ended
   void add(Time until, const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double seconds,
            double flown_m);
 
   /// The map holds what was measured until `stamp`.
   void map_holds(Time stamp);
 
-  [[nodiscard]] const Looks& so_far() const { return so_far_; }
-  [[nodiscard]] const Looks& in_map() const { return in_map_; }
+  [[nodiscard]] const ViewHistory& so_far() const { return so_far_; }
+  [[nodiscard]] const ViewHistory& in_map() const { return in_map_; }
 
  private:
   struct Awaited {
@@ -63,7 +68,7 @@ class LooksAndMap {
     double seconds, flown_m;
   };
 
-  Looks so_far_, in_map_;
+  ViewHistory so_far_, in_map_;
   std::vector<Awaited> awaited_;  ///< in the order of time
 };
 

@@ -6,6 +6,10 @@
 #include "saker/uncertainty/regions.h"
 #include "saker/uncertainty/uncertainty.h"
 
+/// What views are worth, by the fitted uncertainty model.
+///
+/// Reads the model (`uncertainty`), makes the three questions that the choosers ask. Frames: views
+/// are relative to the object (`uncertainty::View`). Cost: a look-up each.
 namespace saker::active {
 
 /// What active mapping asks of the fitted models.

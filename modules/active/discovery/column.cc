@@ -1,4 +1,4 @@
-#include "saker/active/column.h"
+#include "saker/active/discovery/column.h"
 
 #include <algorithm>
 #include <limits>
@@ -35,7 +35,7 @@ double ground_height(const objects::ObjectMap* map, const Eigen::Vector2d& place
   return height;
 }
 
-Standing standing_at(const Eigen::Vector2d& place, const Surroundings& surroundings,
+Standing standing_at(const Eigen::Vector2d& place, const OccupancyView& block,
                      const objects::ObjectMap* map) {
   if (map && std::ranges::any_of(map->objects, [&](const objects::MapObject& object) {
         return within(place, object.model);
@@ -45,7 +45,7 @@ Standing standing_at(const Eigen::Vector2d& place, const Surroundings& surroundi
   const double ground = ground_height(map, place);
   bool known = true;
   for (const double height : kHeights) {
-    switch (surroundings.at({place.x(), place.y(), ground + height})) {
+    switch (block.at({place.x(), place.y(), ground + height})) {
       case occupancy::Cell::occupied:
         return Standing::something;
       case occupancy::Cell::unknown:

@@ -2,10 +2,13 @@
 
 #include <Eigen/Core>
 
-#include "saker/active/viewpoint.h"
+#include "saker/active/views/occupancy_view.h"
 #include "saker/objects/object_map.h"
 
-/// What stands on the ground at a place, as far as the map and the occupancy block say.
+/// What stands on the ground at a place.
+///
+/// Reads the map (objects and local ground, `world`) and the occupancy block (`odom`). Method: the
+/// cells at three heights that any vehicle fills. Cost: linear in the mapped objects.
 namespace saker::active {
 
 enum class Standing {
@@ -20,7 +23,7 @@ enum class Standing {
 [[nodiscard]] double ground_height(const objects::ObjectMap* map, const Eigen::Vector2d& place);
 
 /// \param place of a column, `world`; \param map null: none yet.
-[[nodiscard]] Standing standing_at(const Eigen::Vector2d& place, const Surroundings& surroundings,
+[[nodiscard]] Standing standing_at(const Eigen::Vector2d& place, const OccupancyView& block,
                                    const objects::ObjectMap* map);
 
 }  // namespace saker::active

@@ -1,10 +1,10 @@
-#include "saker/active/coverage.h"
+#include "saker/active/discovery/coverage.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "saker/active/column.h"
-#include "saker/active/sweep_lines.h"
+#include "saker/active/discovery/column.h"
+#include "saker/active/discovery/sweep_lines.h"
 #include "saker/core/error.h"
 
 namespace saker::active {
@@ -76,12 +76,12 @@ bool Coverage::in_view(const Eigen::Vector3d& eye, double yaw, const Vector2d& m
   return between_beams(eye, yaw, {middle.x(), middle.y(), ground_height(map, middle)}, view_);
 }
 
-void Coverage::look(const Eigen::Vector3d& eye, double yaw, double seconds,
-                    const Surroundings& surroundings, const objects::ObjectMap* map) {
+void Coverage::observe(const Eigen::Vector3d& eye, double yaw, double seconds,
+                       const OccupancyView& block, const objects::ObjectMap* map) {
   for (Square& square : squares_) {
     if (square.seen_s >= config_.seen_s) continue;
     if (!in_view(eye, yaw, square.middle, map)) continue;
-    if (standing_at(square.middle, surroundings, map) == Standing::unknown) continue;
+    if (standing_at(square.middle, block, map) == Standing::unknown) continue;
     square.seen_s += seconds;
     if (square.seen_s >= config_.seen_s) ++seen_of_[square.stop];
   }

@@ -4,17 +4,20 @@
 #include <optional>
 #include <vector>
 
-#include "saker/active/discovery_config.h"
-#include "saker/active/viewpoint.h"
+#include "saker/active/discovery/discovery_config.h"
+#include "saker/active/views/viewpoint.h"
 #include "saker/motion/geofence.h"
 #include "saker/objects/object_map.h"
 
 namespace saker::active {
 
-/// What was seen of the geofence, and where to fly in order to see the rest: stops on the lines of
-/// a sweep, and one for each square that no line comes near. A square belongs to its nearest stop;
-/// a stop is due while too few of its squares were seen and it is not closed. There are finitely
-/// many and none opens again: a sweep ends.
+/// What was seen of the geofence, and where to fly in order to see the rest.
+///
+/// Reads poses, occupancy and the map's ground, makes stops: those on the lines of a sweep
+/// (sweep_lines.h), and one for each square that no line comes near. A square belongs to its
+/// nearest stop; a stop is due while too few of its squares were seen and it is not closed. There
+/// are finitely many and none opens again: a sweep ends. Frames: geofence, stops and squares are in
+/// `world`, x-y. Cost: three look-ups in the block for each square in range that was not seen.
 class Coverage {
  public:
   /// \param view whose range, in x-y, is that from which a square is seen.
@@ -22,10 +25,11 @@ class Coverage {
   /// the geofence has too many squares.
   Coverage(const SweepConfig& config, const FieldOfViewConfig& view, const motion::Geofence& fence);
 
-  /// Looks around for `seconds`: squares in range of which it is known what stands there are seen;
-  /// by a lidar that is tilted those between its beams, for a level one has them there on the way.
-  void look(const Eigen::Vector3d& eye, double yaw, double seconds,
-            const Surroundings& surroundings, const objects::ObjectMap* map);
+  /// The lidar was at `eye` for `seconds`. It saw the squares in range of which it is known what
+  /// stands there; one that is tilted those between its beams, for a level one has them there on
+  /// the way.
+  void observe(const Eigen::Vector3d& eye, double yaw, double seconds, const OccupancyView& block,
+               const objects::ObjectMap* map);
 
   /// The stop to fly to: the first that is due, from the last one on and around; none: covered.
   [[nodiscard]] std::optional<std::size_t> next();

@@ -5,6 +5,9 @@
 #include <vector>
 
 /// Lines of a sweep over an area: back and forth, like an ox that ploughs (boustrophedon).
+///
+/// Reads the corners of a polygon, makes lines and stops on them; all in one frame, x-y. Cost: once
+/// a mission.
 namespace saker::active {
 
 struct SweepLine {

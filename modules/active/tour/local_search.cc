@@ -1,4 +1,4 @@
-#include "saker/active/local_search.h"
+#include "saker/active/tour/local_search.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,13 +2,14 @@
 
 #include <vector>
 
-#include "saker/active/tour.h"
+#include "saker/active/tour/tour.h"
 #include "saker/core/rng.h"
 
 namespace saker::active {
 
 /// 2-opt, Or-opt and double bridges on one tour (tour.h names the sources).
 ///
+/// Reads costs and an order, makes a shorter order; no frame, any unit. Cost: see tour.h.
 /// The path is a closed tour: its start and its end are two nodes more, joined by an edge so cheap
 /// that no improvement removes it. Every move is a series of reversals of paths, so that a
 /// perturbation that does not pay is taken back by doing the same reversals again.

@@ -1,205 +1,214 @@
-#include "saker/active/touring.h"
+#include "saker/active/tour/target_tour.h"
 
-#include <algorithm>
 #include <cstdio>
-#include <map>
-
-#include "saker/core/se3.h"
+#include <utility>
 
 namespace saker::active {
 namespace {
 
-constexpr double kLongestStep = 2.0;  // s that a decision stands for: two of its periods
-constexpr double kStanding = 0.2;     // m/s and slower
+using Phase = TargetState::Phase;
+
+GoalLimits limits_of(const GoalsConfig& goals) {
+  GoalLimits limits;
+  limits.patience_s = goals.patience_s;
+  limits.standing_s = goals.standing_s;
+  limits.progress_m = goals.progress_m;
+  limits.refused_m = goals.refused_m;
+  limits.most_refusals = goals.most_refusals;
+  limits.most_goals = goals.most_goals;
+  limits.attempts = goals.attempts;
+  return limits;
+}
+
+std::string no_progress(double closest_m) {
+  char reason[100];
+  std::snprintf(reason, sizeof(reason),
+                "the vehicle came no nearer than %.1f m and saw nothing new", closest_m);
+  return reason;
+}
 
 }  // namespace
 
-TouringPolicy::TouringPolicy(const ActiveConfig& config, TargetList targets, InGeofence in_geofence)
-    : config_(config), targets_(std::move(targets)), in_geofence_(std::move(in_geofence)) {}
+TargetTour::TargetTour(const ActiveConfig& config, TargetList targets,
+                       const ViewpointSampler& sampler, std::unique_ptr<const ViewChooser> chooser)
+    : config_(config),
+      limits_(limits_of(config.goals)),
+      targets_(std::move(targets)),
+      sampler_(sampler),
+      chooser_(std::move(chooser)) {}
 
-ActivePlan TouringPolicy::plan(const ActiveInput& input, const core::Budget& budget) {
+ActivePlan TargetTour::plan(const ActiveInput& input, const core::Budget& budget) {
   if (!accept(input)) return {};
   follow_list();
   if (map_) targets_.associate(*map_);
   observe();
-  reconsider();
+  reopen();
   watch_progress();
   if (reorder_) order_tour(budget);
-  while (!tour_.empty() && !choose(tour_.front())) {
-    give_up_target(tour_.front(), why_none(tour_.front()));
+  while (!tour_.empty() && !fly_on(tour_.front())) {
     if (tour_.empty()) order_tour(budget);
   }
   return report();
 }
 
-bool TouringPolicy::accept(const ActiveInput& input) {
-  const bool finite =
-      input.T_world_body.matrix().allFinite() && input.T_world_odom.matrix().allFinite();
-  if (!finite || (last_stamp_ && input.stamp <= *last_stamp_)) return false;
-  elapsed_s_ = last_stamp_ ? std::min(to_seconds(input.stamp - *last_stamp_), kLongestStep) : 0;
-  const Eigen::Vector3d body = input.T_world_body.translation();
-  stands_ = (body - body_).norm() < kStanding * elapsed_s_;
-  if (last_stamp_) flown_m_ += (body - body_).norm();
-  last_stamp_ = input.stamp;
-  body_ = body;
-  yaw_ = core::yaw(input.T_world_body.linear());
+bool TargetTour::accept(const ActiveInput& input) {
+  const bool from_start = input.start && chooser_->decides_from_start();
+  const Time stamp = from_start ? input.start->stamp : input.stamp;
+  const SE3& T_world_body = from_start ? input.start->T_world_body : input.T_world_body;
+  if (!input.T_world_odom.matrix().allFinite()) return false;
+  if (!vehicle_.advance(stamp, T_world_body)) return false;
   map_ = input.map;
   grid_ = input.grid;
-  surroundings_ = {grid_.get(), input.T_world_odom.inverse()};
+  block_ = {grid_.get(), input.T_world_odom.inverse()};
+  reachability_ = Reachability(block_, vehicle_.position(), config_.viewpoints.clearance_m,
+                               sampler_.in_geofence());
+  for (ViewRecord& record : records_) record.history.map_holds(input.map_stamp.value_or(stamp));
+  flown_.clear();
   return true;
 }
 
-/// Targets that came get room; those that were dismissed leave the tour.
-void TouringPolicy::follow_list() {
+ViewScene TargetTour::scene() const {
+  std::optional<Eigen::Vector3d> end;
+  if (config_.goals.return_home) end = Eigen::Vector3d(0, 0, config_.viewpoints.height_m);
+  return {vehicle_, map_.get(), block_, reachability_, targets_.all(),
+          states_,  records_,   tour_,  end,           expected_};
+}
+
+/// Targets that came get a state; those that were dismissed leave the tour.
+void TargetTour::follow_list() {
   if (revision_ == targets_.revision()) return;
   revision_ = targets_.revision();
-  make_room(static_cast<std::size_t>(targets_.size()));
+  const auto count = static_cast<std::size_t>(targets_.size());
+  states_.resize(count, TargetState(limits_));
+  records_.resize(count, chooser_->unseen());
   reorder_ = true;
-  if (goal_ && targets_[goal_->target].absent) goal_.reset();
+  if (!current_ || !targets_[*current_].absent) return;
+  states_[*current_].leave();
+  current_.reset();
 }
 
-void TouringPolicy::observe() {
+void TargetTour::observe() {
+  for (int index = 0; index < targets_.size(); ++index) {
+    if (targets_[index].status == TargetStatus::pending && sees(targets_[index])) observe(index);
+  }
+}
+
+void TargetTour::observe(int index) {
+  ViewRecord& record = records_[index];
+  record.history.add(vehicle_.stamp(), vehicle_.position(), targets_[index].place(),
+                     vehicle_.elapsed_s(), vehicle_.flown_m());
+  const ViewOutcome outcome = chooser_->observe(scene(), index, record);
+  if (outcome.is_new) states_[index].see_new();
+  if (outcome.goal_seen) {
+    expected_->seen_until = vehicle_.stamp();
+    flown_.push_back(*expected_);
+    expected_.reset();
+  }
+  if (outcome.target_done) close(index, seen_status(index), outcome.reason);
+}
+
+/// Views of a target that was closed as well known count, too: they may contradict the others.
+void TargetTour::reopen() {
   for (int index = 0; index < targets_.size(); ++index) {
     const Target& target = targets_[index];
-    if (target.status == TargetStatus::pending && sees(body_, yaw_, target, 0)) look(index);
+    ViewRecord& record = records_[index];
+    if (!record.well_known || target.status == TargetStatus::pending) continue;
+    if (sees(target)) {
+      record.history.add(vehicle_.stamp(), vehicle_.position(), target.place(),
+                         vehicle_.elapsed_s(), vehicle_.flown_m());
+    }
+    if (!chooser_->reopens(scene(), index)) continue;
+    record.well_known = false;
+    targets_.close(index, TargetStatus::pending, "");
+    states_[index] = TargetState(limits_);
+    reorder_ = true;
   }
 }
 
-bool TouringPolicy::sees(const Eigen::Vector3d& eye, double yaw, const Target& target,
-                         double margin_deg) const {
-  const ViewpointConfig& config = config_.viewpoints;
-  return in_field_of_view(eye, yaw, target.extent, config_.view, margin_deg) &&
-         visible_share(eye, target.extent, surroundings_, config.own_margin_m) >=
-             config.least_visible;
+bool TargetTour::sees(const Target& target) const {
+  return sampler_.sees(vehicle_.position(), vehicle_.yaw(), target, block_, 0);
 }
 
-void TouringPolicy::saw_something_new(int index) {
-  records_[index].goals = 0;
-  if (goal_ && goal_->target == index) goal_->idle_s = goal_->standing_s = 0;
-}
-
-void TouringPolicy::watch_progress() {
-  if (!goal_) return;
-  const GoalsConfig& config = config_.goals;
-  const double distance = (body_ - goal_->viewpoint.position).norm();
-  goal_->idle_s += elapsed_s_;
-  goal_->standing_s = stands_ ? goal_->standing_s + elapsed_s_ : 0;
-  if (distance < goal_->closest_m - config.progress_m) {
-    goal_->closest_m = distance;
-    goal_->idle_s = 0;
-  }
-  if (goal_->idle_s > config.patience_s || goal_->standing_s > config.standing_s) {
-    char reason[100];
-    std::snprintf(reason, sizeof(reason),
-                  "the vehicle came no nearer than %.1f m and saw nothing new", goal_->closest_m);
-    give_up_viewpoint(reason);
-  }
+void TargetTour::watch_progress() {
+  if (!current_) return;
+  const int index = *current_;
+  TargetState& state = states_[index];
+  const Phase phase = state.update(vehicle_.position(), vehicle_.elapsed_s(), vehicle_.stands());
+  if (phase == Phase::approaching) return;
+  current_.reset();
+  if (phase != Phase::waiting) end_attempt(index, no_progress(state.closest_m()));
 }
 
 /// The targets that are next: those with the fewest failed attempts.
-std::vector<int> TouringPolicy::due() const {
+std::vector<int> TargetTour::due() const {
   std::vector<int> due;
   for (int index = 0; index < targets_.size(); ++index) {
     if (targets_[index].status != TargetStatus::pending) continue;
-    const int attempts = records_[index].attempts;
-    if (!due.empty() && attempts > records_[due.front()].attempts) continue;
-    if (!due.empty() && attempts < records_[due.front()].attempts) due.clear();
+    const int attempts = states_[index].attempts();
+    if (!due.empty() && attempts > states_[due.front()].attempts()) continue;
+    if (!due.empty() && attempts < states_[due.front()].attempts()) due.clear();
     due.push_back(index);
   }
   return due;
 }
 
-void TouringPolicy::order_tour(const core::Budget& budget) {
+void TargetTour::order_tour(const core::Budget& budget) {
   const std::vector<int> indices = due();
   std::vector<Eigen::Vector3d> stops;
   for (const int index : indices) stops.push_back(targets_[index].place());
   std::optional<Eigen::Vector3d> home;
   if (config_.goals.return_home) home = Eigen::Vector3d::Zero();
-  const Tour tour = solve_tour(straight_lines(stops, body_, home), config_.tour, budget);
+  const TourProblem problem = straight_lines(stops, vehicle_.position(), home);
+  const Tour tour = solve_tour(problem, config_.tour, budget);
   tour_.clear();
   for (const int place : tour.order) tour_.push_back(indices[place]);
   tour_length_m_ = tour.length;
   reorder_ = false;
 }
 
-/// Where the tour goes on after the current target; none where it may end anywhere.
-std::optional<Eigen::Vector3d> TouringPolicy::next_place() const {
-  if (tour_.size() > 1) return targets_[tour_[1]].place();
-  if (!config_.goals.return_home) return std::nullopt;
-  return Eigen::Vector3d(0, 0, config_.viewpoints.height_m);
-}
-
-bool TouringPolicy::fly_to(int index, const Viewpoint& viewpoint) {
-  if (++records_[index].goals > config_.goals.most_goals) return false;
-  goal_ = Goal{index, viewpoint, (body_ - viewpoint.position).norm()};
-  return true;
-}
-
-std::vector<Candidate> TouringPolicy::viewpoints_of(int index) const {
-  const ViewpointConfig& config = config_.viewpoints;
-  std::vector<Candidate> candidates =
-      sample_viewpoints(targets_[index].extent, index * config.bearings * config.rings, config,
-                        config_.view, surroundings_, in_geofence_);
-  for (Candidate& candidate : candidates) candidate.viewpoint.target_id = targets_[index].id;
-  return candidates;
-}
-
-/// The goal stays where it is while it is good, with half of the margin: estimates tremble, and a
-/// goal that does, too, is never reached.
-Candidate TouringPolicy::goal_as_candidate() const {
-  FieldOfViewConfig view = config_.view;
-  view.margin_deg /= 2;
-  Candidate current;
-  current.viewpoint = goal_->viewpoint;
-  current.known_free = surroundings_.at(goal_->viewpoint.position) == occupancy::Cell::free;
-  current.refusal = refusal_of(current.viewpoint, targets_[goal_->target].extent,
-                               config_.viewpoints, view, surroundings_, in_geofence_);
-  return current;
-}
-
-bool TouringPolicy::was_given_up(int index, const Viewpoint& viewpoint) const {
-  const std::vector<Eigen::Vector3d>& given_up = records_[index].given_up;
-  return std::any_of(given_up.begin(), given_up.end(), [&](const Eigen::Vector3d& place) {
-    return (place - viewpoint.position).norm() < config_.goals.refused_m;
-  });
-}
-
-/// "no viewpoint left: 40 occupied, 12 hidden"
-std::string TouringPolicy::why_none(int /*index*/) const {
-  std::map<Refusal, int> count;
-  for (const Candidate& candidate : candidates_) ++count[candidate.refusal];
-  if (count.contains(Refusal::none)) return "too many viewpoints were flown to in vain";
-  std::string text = "no viewpoint left:";
-  for (const auto& [refusal, number] : count) {
-    text += (text.back() == ':' ? " " : ", ") + std::to_string(number) + " " + to_string(refusal);
+/// To the next view of this target. \return false where there is none: its attempt has ended.
+bool TargetTour::fly_on(int index) {
+  if (!targets_[index].mapped()) expected_.reset();  // it is searched
+  const ViewChoice choice = chooser_->choose(scene(), index);
+  candidates_ = choice.candidates;
+  records_[index].well_known = choice.well_known;
+  if (choice.between_sides) records_[index].sides.also_between();
+  if (choice.verdict == ViewChoice::Verdict::keep_goal) return true;
+  if (choice.verdict == ViewChoice::Verdict::fly) {
+    fly_to(index, choice);
+    if (states_[index].phase() == Phase::approaching) return true;
+  } else {
+    states_[index].give_up();
   }
-  return text;
+  end_attempt(index, chooser_->why_none(scene(), index, choice));
+  return false;
 }
 
-void TouringPolicy::refuse(int viewpoint_id, const std::string& reason) {
-  if (goal_ && goal_->viewpoint.id == viewpoint_id) give_up_viewpoint("no way there: " + reason);
-}
-
-void TouringPolicy::give_up_viewpoint(const std::string& reason) {
-  const int index = goal_->target;
-  std::vector<Eigen::Vector3d>& given_up = records_[index].given_up;
-  given_up.push_back(goal_->viewpoint.position);
-  goal_.reset();
-  if (static_cast<int>(given_up.size()) >= config_.goals.most_refusals) {
-    give_up_target(index, reason);
+void TargetTour::fly_to(int index, const ViewChoice& choice) {
+  if (choice.expected) {
+    expected_ = choice.expected;
+    ++records_[index].expected;
   }
+  const Phase phase = states_[index].fly_to(choice.viewpoint, vehicle_.position());
+  if (phase != Phase::approaching) return;
+  if (current_ && *current_ != index) states_[*current_].leave();
+  current_ = index;
+}
+
+void TargetTour::refuse(int viewpoint_id, const std::string& reason) {
+  if (!current_) return;
+  const int index = *current_;
+  if (states_[index].goal()->id != viewpoint_id) return;
+  current_.reset();
+  if (states_[index].refuse() != Phase::waiting) end_attempt(index, "no way there: " + reason);
 }
 
 /// What was seen from somewhere is visited; what was not is tried again later, or never.
-void TouringPolicy::give_up_target(int index, const std::string& reason) {
-  Record& record = records_[index];
-  const std::string seen = seen_from(index);
-  ++record.attempts;
-  record.given_up.clear();
-  record.goals = 0;
+void TargetTour::end_attempt(int index, const std::string& reason) {
+  const std::string seen = chooser_->seen_from(scene(), index);
   if (!seen.empty()) {
     close(index, seen_status(index), seen + "; " + reason);
-  } else if (record.attempts >= config_.goals.attempts) {
+  } else if (states_[index].phase() == Phase::exhausted) {
     close(index, TargetStatus::unreachable, reason);
   } else {
     close(index, TargetStatus::pending, reason);
@@ -207,27 +216,24 @@ void TouringPolicy::give_up_target(int index, const std::string& reason) {
 }
 
 /// Takes a target off the tour.
-void TouringPolicy::close(int index, TargetStatus status, const std::string& reason) {
+void TargetTour::close(int index, TargetStatus status, const std::string& reason) {
   targets_.close(index, status, reason);
   std::erase(tour_, index);
-  if (goal_ && goal_->target == index) goal_.reset();
+  states_[index].leave();
+  if (current_ == index) current_.reset();
   reorder_ = true;
 }
 
-void TouringPolicy::reopen(int index) {
-  targets_.close(index, TargetStatus::pending, "");
-  records_[index] = {};
-  reorder_ = true;
-}
-
-TargetStatus TouringPolicy::seen_status(int index) const {
+TargetStatus TargetTour::seen_status(int index) const {
   return targets_[index].mapped() ? TargetStatus::done : TargetStatus::visited;
 }
 
-ActivePlan TouringPolicy::report() const {
+ActivePlan TargetTour::report() const {
   ActivePlan plan;
-  plan.status = goal_ ? ActiveStatus::flying : ActiveStatus::finished;
-  if (goal_) plan.goal = goal_->viewpoint;
+  plan.status = current_ ? ActiveStatus::flying : ActiveStatus::finished;
+  if (current_) plan.goal = states_[*current_].goal();
+  if (plan.goal && expected_ && expected_->viewpoint_id == plan.goal->id) plan.expected = expected_;
+  plan.flown = flown_;
   for (const int index : tour_) plan.tour.push_back(targets_[index].id);
   plan.tour_length_m = tour_length_m_;
   plan.candidates = candidates_;

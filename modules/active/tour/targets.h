@@ -4,12 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "saker/active/belief.h"
+#include "saker/active/belief/belief.h"
 #include "saker/core/config.h"
 #include "saker/objects/object_map.h"
 
 /// What the tour is for: the prior map's objects of target classes and those that discovery adds,
 /// each with the mapped object that it turned out to be.
+///
+/// Reads the prior map once and the object map at each decision, makes the association of targets
+/// and objects. Frames: all in `world`. Method: one to one, most pairs in the gate, of those the
+/// nearest (objects/assignment.h). Cost: targets × objects.
 namespace saker::active {
 
 struct TargetsConfig {
@@ -47,7 +51,7 @@ struct TargetsConfig {
 enum class TargetStatus {
   pending,      ///< to be visited
   done,         ///< seen from enough sides, and mapped
-  visited,      ///< the same, but the map has no whole object there: the prior may be wrong
+  visited,      ///< the same, but the map has no complete object there: the prior may be wrong
   unreachable,  ///< seen from no side
 };
 
@@ -96,7 +100,7 @@ class TargetList {
   /// Gives each target the mapped object of its class that it is: one to one, the most pairs in the
   /// gate, of those the nearest. A target whose object has left the map has none again; a closed
   /// one takes only what stands in its stead, no neighbour. It keeps its object as long as that is
-  /// there, for another may not have been looked at; an unreachable one takes none. An incomplete
+  /// there, for another may not have been seen yet; an unreachable one takes none. An incomplete
   /// object may be a target's as well, which then takes no neighbour's: it is not mapped by it, but
   /// known to be about there.
   void associate(const objects::ObjectMap& map);

@@ -1,9 +1,9 @@
-#include "saker/active/tour.h"
+#include "saker/active/tour/tour.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "saker/active/local_search.h"
+#include "saker/active/tour/local_search.h"
 
 namespace saker::active {
 namespace {

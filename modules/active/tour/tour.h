@@ -11,6 +11,7 @@
 /// The order of the tour: a travelling salesman's path from where the vehicle is, through all
 /// stops, to a given end or to none.
 ///
+/// Reads costs between places, makes their order; no frame. Cost: 0.9 s for 1,002 stops.
 /// Method: exact by dynamic programming (Held and Karp, J. SIAM 10, 1962) for a few stops. Beyond:
 /// nearest neighbour, then 2-opt (Croes 1958) and Or-opt (Or 1976) with neighbour lists and
 /// don't-look bits (Bentley, ORSA J. Computing 4, 1992), then iterated local search with double

@@ -1,4 +1,4 @@
-#include "saker/active/field_of_view.h"
+#include "saker/active/views/field_of_view.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -104,7 +104,7 @@ bool between_beams(const Vector3d& eye, double yaw, const Vector3d& point,
   return band_of(config, 0).holds(elevation_of(point - eye, axis));
 }
 
-double looks_to(double elevation, const FieldOfViewConfig& config) {
+double viewing_azimuth(double elevation, const FieldOfViewConfig& config) {
   const Vector3d axis = config.R_body_lidar.col(2);
   const double leaning = axis.head<2>().norm();
   if (leaning < kUpright) return 0;

@@ -7,6 +7,8 @@
 
 /// What the lidar has between its beams, mounted level or tilted.
 ///
+/// Reads a pose, a target and the field of view, answers whether all of it is in view. Exact for
+/// upright cuboids: a cone's bulge into the box is found by golden sections. Cost: eight corners.
 /// Frames: eyes and targets are in `world`, where the body hovers level with a heading; the lidar
 /// is taken to be at the body's place, which `margin_deg` covers.
 namespace saker::active {
@@ -33,8 +35,8 @@ struct FieldOfViewConfig {
   }
 };
 
-/// Whether the whole target is between the beams and in the range, of a body at `eye` that heads to
-/// `yaw`. Exact for an upright cuboid.
+/// Whether all of the target is between the beams and in the range, of a body at `eye` that heads
+/// to `yaw`. Exact for an upright cuboid.
 [[nodiscard]] bool in_field_of_view(const Eigen::Vector3d& eye, double yaw,
                                     const objects::Cuboid& target, const FieldOfViewConfig& config,
                                     double margin_deg);
@@ -43,10 +45,10 @@ struct FieldOfViewConfig {
 [[nodiscard]] bool between_beams(const Eigen::Vector3d& eye, double yaw,
                                  const Eigen::Vector3d& point, const FieldOfViewConfig& config);
 
-/// Where a level lidar looks all around, a tilted one has two directions at each elevation midway
+/// Where a level lidar sees all around, a tilted one has two directions at each elevation midway
 /// between its beams, or one that comes nearest to that. \return rad, from the nose to the left: of
 /// these the one that is nearest to the nose; level: 0.
-[[nodiscard]] double looks_to(double elevation, const FieldOfViewConfig& config);
+[[nodiscard]] double viewing_azimuth(double elevation, const FieldOfViewConfig& config);
 
 /// Whether it sees to where it flies, whatever its heading: level directions on all sides.
 [[nodiscard]] bool sees_all_around(const FieldOfViewConfig& config);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "saker/active/faces.h"
-#include "saker/active/region_samples.h"
+#include "saker/active/belief/faces.h"
+#include "saker/active/views/region_samples.h"
 #include "saker/core/config.h"
 
 namespace saker::active {

@@ -1,4 +1,4 @@
-#include "saker/active/path_search.h"
+#include "saker/active/views/path_search.h"
 
 #include <algorithm>
 #include <limits>
@@ -28,17 +28,17 @@ bool contains(const std::vector<int>& stops, int stop) {
 }
 
 /// m², of x and y since the object was first seen.
-double drift(const Sight& sight, double flown_m, const PathProblem& problem) {
-  return problem.drift_m * problem.drift_m * (problem.drifted_m[sight.object] + flown_m);
+double drift(const CellMeasurement& measurement, double flown_m, const PathProblem& problem) {
+  return problem.drift_m * problem.drift_m * (problem.drifted_m[measurement.object] + flown_m);
 }
 
-void look(State& state, const Sight& sight, const PathProblem& problem) {
-  const std::pair<int, int> cell(sight.object, sight.cell);
+void measure(State& state, const CellMeasurement& measurement, const PathProblem& problem) {
+  const std::pair<int, int> cell(measurement.object, measurement.cell);
   if (std::find(state.seen.begin(), state.seen.end(), cell) != state.seen.end()) return;
   state.seen.push_back(cell);
-  Belief& belief = state.beliefs[sight.object];
+  Belief& belief = state.beliefs[measurement.object];
   const double before = belief.entropy();
-  belief.add(information_of(sight.measured, drift(sight, state.flown_m, problem)));
+  belief.add(information_of(measurement.measured, drift(measurement, state.flown_m, problem)));
   state.path.gain += before - belief.entropy();
 }
 
@@ -49,7 +49,8 @@ State extended(const State& state, int stop, const PathProblem& problem) {
   next.flown_m += begins ? problem.to_m[stop] : problem.between_m(last, stop);
   next.flown_s += (begins ? problem.to_s[stop] : problem.between_s(last, stop)) + problem.dwell_s;
   next.path.stops.push_back(stop);
-  for (const Sight& sight : problem.stops[stop]) look(next, sight, problem);
+  for (const CellMeasurement& measurement : problem.stops[stop])
+    measure(next, measurement, problem);
   next.path.detour_s = next.flown_s + problem.on_s[stop] - problem.direct_s;
   next.path.value = next.path.gain - problem.price_per_s * next.path.detour_s;
   return next;
@@ -97,8 +98,8 @@ void search_by_beam(const State& start, const PathProblem& problem, std::size_t 
 /// Σ of the single gains of a stop, if nothing were common and nothing drifted.
 double most_gain(const PathProblem& problem, int stop, const std::vector<Belief>& beliefs) {
   double sum = 0;
-  for (const Sight& sight : problem.stops[stop]) {
-    sum += beliefs[sight.object].most_gain(information_of(sight.measured, 0));
+  for (const CellMeasurement& measurement : problem.stops[stop]) {
+    sum += beliefs[measurement.object].most_gain(information_of(measurement.measured, 0));
   }
   return sum;
 }

@@ -4,18 +4,21 @@
 #include <optional>
 #include <vector>
 
-#include "saker/active/belief.h"
+#include "saker/active/belief/belief.h"
 
 /// Which viewpoints to fly to, and in which order.
 ///
-/// Paper, "Uncertainty minimization": all P(a, T) = a! / (a − T)! ordered paths through T of the a
-/// samples; the one that takes most off the entropy is flown. That gain does not depend on the
-/// order: ties are broken by flight time. Beyond the paper: several objects at once, the price of a
-/// second of flight, and the drift of the pose on the way (then the order does count).
+/// Reads beliefs, what each viewpoint measures and the times between them, makes the path that is
+/// worth most. Frames: none, all are lengths and times. Cost: 13 ms for all 24,360 paths through 3
+/// of 30 viewpoints and one object.
+/// Method: paper, "Uncertainty minimization": all P(a, T) = a! / (a − T)! ordered paths through T
+/// of the a samples; the one that takes most off the entropy is flown. That gain does not depend on
+/// the order: ties are broken by flight time. Beyond the paper: several objects at once, the price
+/// of a second of flight, and the drift of the pose on the way (then the order does count).
 namespace saker::active {
 
-/// What a viewpoint tells of one object.
-struct Sight {
+/// What a viewpoint measures of one object.
+struct CellMeasurement {
   int object = -1;  ///< index into PathProblem::objects
   int cell = -1;    ///< of the uncertainty model: counts once an object
   Measured measured;
@@ -23,12 +26,12 @@ struct Sight {
 
 struct PathProblem {
   std::vector<Belief> objects;
-  std::vector<double> drifted_m;          ///< flown since each object was first seen
-  std::vector<std::vector<Sight>> stops;  ///< of cells that were not seen yet
-  Eigen::VectorXd to_m, to_s;             ///< from the vehicle to each stop
-  Eigen::VectorXd on_s;                   ///< from each stop to where the tour goes on
+  std::vector<double> drifted_m;                    ///< flown since each object was first seen
+  std::vector<std::vector<CellMeasurement>> stops;  ///< of cells that were not seen yet
+  Eigen::VectorXd to_m, to_s;                       ///< from the vehicle to each stop
+  Eigen::VectorXd on_s;                             ///< from each stop to the next target
   Eigen::MatrixXd between_m, between_s;
-  double direct_s = 0;     ///< from the vehicle to where the tour goes on
+  double direct_s = 0;     ///< from the vehicle to the next target
   double dwell_s = 0;      ///< at each stop
   double drift_m = 0;      ///< sd of the pose in x and y after 1 m, growing with its root
   double price_per_s = 0;  ///< nat that a second of flight must bring

@@ -1,4 +1,4 @@
-#include "saker/active/region_samples.h"
+#include "saker/active/views/region_samples.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ std::vector<int> take_part(int seed, std::vector<bool>& open, int rings) {
   return part;
 }
 
-int nearest_to_mean(const std::vector<int>& part, const std::vector<Candidate>& lattice) {
+int nearest_to_mean(const std::vector<int>& part, const std::vector<ViewpointCandidate>& lattice) {
   const auto place = [&](int index) { return lattice[index].viewpoint.position; };
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const int index : part) mean += place(index) / static_cast<double>(part.size());
@@ -41,7 +41,7 @@ int nearest_to_mean(const std::vector<int>& part, const std::vector<Candidate>& 
 
 }  // namespace
 
-std::vector<int> region_samples(const std::vector<Candidate>& lattice,
+std::vector<int> region_samples(const std::vector<ViewpointCandidate>& lattice,
                                 const std::vector<bool>& in_region, Sampling sampling, int rings) {
   std::vector<bool> open = in_region;
   std::vector<int> samples;

@@ -3,8 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "saker/active/viewpoint.h"
+#include "saker/active/views/viewpoint.h"
 
+/// Samples of the region of good views.
+///
+/// Reads the lattice of candidates and which of them lie in the region, makes indices of samples.
+/// Method: the paper, "Uncertainty minimization". Cost: linear in the lattice.
 namespace saker::active {
 
 /// How the region of good views is sampled (paper, "Uncertainty minimization", figure of the
@@ -20,7 +24,7 @@ enum class Sampling { uniform, centroids };
 /// connected parts (neighbours in direction or ring) the one that is nearest to the part's mean; so
 /// that of a ring, whose mean is the target, lies on the ring.
 /// \param in_region  one a candidate.
-[[nodiscard]] std::vector<int> region_samples(const std::vector<Candidate>& lattice,
+[[nodiscard]] std::vector<int> region_samples(const std::vector<ViewpointCandidate>& lattice,
                                               const std::vector<bool>& in_region, Sampling sampling,
                                               int rings);
 

@@ -1,4 +1,4 @@
-#include "saker/active/sides.h"
+#include "saker/active/views/sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-9;  // rad: sides just as far apart as asked for
 
 }  // namespace
 
-bool Sides::look(double bearing, double seconds) {
+bool Sides::add(double bearing, double seconds) {
   const int bins = static_cast<int>(dwell_s_.size());
   const int nearest = static_cast<int>(std::lround(bearing / kTurn * bins));
   const int bin = (nearest % bins + bins) % bins;

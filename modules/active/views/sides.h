@@ -4,7 +4,10 @@
 
 namespace saker::active {
 
-/// From which directions an object was looked at, and for how long.
+/// From which directions an object was in view, and for how long.
+///
+/// Reads bearings and times, makes sides: bins of direction with a dwell each, some angle apart.
+/// Bearings are in `world`, from the object to the eye.
 class Sides {
  public:
   /// \param bins directions that are told apart.
@@ -14,7 +17,7 @@ class Sides {
       : dwell_s_(bins, 0.0), least_dwell_s_(dwell_s), separation_(separation) {}
 
   /// In view for `seconds` from `bearing` (rad, object to eye). \return whether that made a side.
-  bool look(double bearing, double seconds);
+  bool add(double bearing, double seconds);
 
   /// Whether a view from there could make another side.
   [[nodiscard]] bool apart(double bearing) const;

@@ -4,15 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "saker/active/field_of_view.h"
+#include "saker/active/views/field_of_view.h"
+#include "saker/active/views/occupancy_view.h"
 #include "saker/core/config.h"
 #include "saker/core/se3.h"
 #include "saker/objects/models.h"
-#include "saker/occupancy/grid.h"
 
-/// Where to look from: what hides a target, candidate viewpoints.
+/// Viewpoints of a target.
 ///
-/// Frames: viewpoints and targets are in `world`, the occupancy block is in `odom`.
+/// Reads a target's extent, the field of view and the occupancy block, makes rings of candidates
+/// around it, from the nearest place that has all of it in view, each with the first reason that
+/// speaks against it. Frames: viewpoints and targets are in `world`, the occupancy block is in
+/// `odom`. Cost: 72 candidates of five rays each.
 namespace saker::active {
 
 /// Whether the vehicle may be there; `world`.
@@ -23,23 +26,6 @@ using InGeofence = std::function<bool(const Eigen::Vector3d&)>;
 [[nodiscard]] Eigen::Vector3d raised_into(const InGeofence& in_geofence,
                                           const Eigen::Vector3d& place, double most_m);
 
-/// An occupancy block seen from `world`. Without a block everything is unknown.
-struct Surroundings {
-  const occupancy::OccupancyGrid* grid = nullptr;
-  SE3 T_odom_world = SE3::Identity();
-
-  [[nodiscard]] occupancy::Cell at(const Eigen::Vector3d& p_world) const {
-    return grid ? grid->at(T_odom_world * p_world) : occupancy::Cell::unknown;
-  }
-  /// Whether a cell's centre within `radius` is occupied.
-  [[nodiscard]] bool blocked(const Eigen::Vector3d& p_world, double radius) const;
-};
-
-/// Share of the target that no occupied cell hides, by rays to its vertical edges and its middle.
-/// Cells of the target itself (within `own_margin_m`) and unknown ones hide nothing.
-[[nodiscard]] double visible_share(const Eigen::Vector3d& eye, const objects::Cuboid& target,
-                                   const Surroundings& surroundings, double own_margin_m);
-
 /// Of a frame that stands upright at `position`, turned by `yaw`, rad.
 [[nodiscard]] inline SE3 level_pose(const Eigen::Vector3d& position, double yaw) {
   SE3 T = SE3::Identity();
@@ -48,7 +34,7 @@ struct Surroundings {
   return T;
 }
 
-/// A place to look from.
+/// A place to fly to, and a heading there.
 struct Viewpoint {
   int id = -1;  ///< target and slot: the same direction and ring have the same id; below −1: a stop
                 ///< of the sweep
@@ -64,7 +50,7 @@ struct Viewpoint {
 /// Why a candidate is not flown to.
 enum class Refusal {
   none,
-  out_of_view,       ///< the target is not wholly in the field of view from there
+  out_of_view,       ///< the target is not all in the field of view from there
   outside_geofence,  ///<
   occupied,          ///< something is nearer than the clearance
   hidden,            ///< too little of the target is visible
@@ -89,10 +75,10 @@ enum class Refusal {
   return kNames[static_cast<int>(refusal)];
 }
 
-struct Candidate {
+struct ViewpointCandidate {
   Viewpoint viewpoint;
   bool known_free = false;  ///< else it was never seen, and may be once the vehicle is nearer
-  double gain = 0;          ///< what it tells; its unit is the policy's
+  double gain = 0;          ///< what a view from there brings; its unit is the policy's
   double cost_m = 0;        ///< flight that it takes
   Refusal refusal = Refusal::none;
 };
@@ -124,15 +110,13 @@ struct ViewpointConfig {
 
 /// Rings of candidates around a target, each with the first refusal that applies; ids from
 /// `first_id` on, bearings · rings of them.
-[[nodiscard]] std::vector<Candidate> sample_viewpoints(const objects::Cuboid& target, int first_id,
-                                                       const ViewpointConfig& config,
-                                                       const FieldOfViewConfig& view,
-                                                       const Surroundings& surroundings,
-                                                       const InGeofence& in_geofence);
+[[nodiscard]] std::vector<ViewpointCandidate> sample_viewpoints(
+    const objects::Cuboid& target, int first_id, const ViewpointConfig& config,
+    const FieldOfViewConfig& view, const OccupancyView& block, const InGeofence& in_geofence);
 
 /// The first of the refusals that hold whatever was seen so far.
 [[nodiscard]] Refusal refusal_of(const Viewpoint& viewpoint, const objects::Cuboid& target,
                                  const ViewpointConfig& config, const FieldOfViewConfig& view,
-                                 const Surroundings& surroundings, const InGeofence& in_geofence);
+                                 const OccupancyView& block, const InGeofence& in_geofence);
 
 }  // namespace saker::active
