@@ -13,16 +13,17 @@ using namespace made;
 using objects::Cuboid;
 
 TEST(Active, ConfigurationThatCannotBeIsRefused) {
-  ActiveConfig crowded;
+  EXPECT_NO_THROW((void)make_tour(visiting(), objects::ClassTable(), {}, everywhere));
+  ActiveConfig crowded = visiting();
   crowded.visit_policy.sides = 3;  // and 120° apart: the third may find no room
   EXPECT_THROW((void)make_tour(crowded, objects::ClassTable(), {}, everywhere), Error);
-  ActiveConfig hasty;
+  ActiveConfig hasty = visiting();
   hasty.goals.standing_s = hasty.visit_policy.dwell_s;
   EXPECT_THROW((void)make_tour(hasty, objects::ClassTable(), {}, everywhere), Error);
-  ActiveConfig blind;
+  ActiveConfig blind = visiting();
   blind.view.nearest_m = blind.view.farthest_m;
   EXPECT_THROW((void)make_tour(blind, objects::ClassTable(), {}, everywhere), Error);
-  ActiveConfig out_of_bounds;
+  ActiveConfig out_of_bounds = visiting();
   out_of_bounds.viewpoints.bearings = 0;
   EXPECT_THROW((void)make_tour(out_of_bounds, objects::ClassTable(), {}, everywhere), Error);
 }
@@ -38,7 +39,7 @@ TEST(Active, ByInformationGainIsRefusedWithoutAModelOrWithOneThatLacksATargetCla
 }
 
 TEST(Active, ThatWouldNeverLookIsRefused) {
-  ActiveConfig config;
+  ActiveConfig config = visiting();
   config.paper.enough_entropy = 0;
   EXPECT_THROW((void)make_tour(config, objects::ClassTable(), {}, everywhere), Error);
 }

@@ -44,7 +44,7 @@ TEST(Discovery, WhatComesAndGoesIsNeverATarget) {
 }
 
 TEST(Discovery, OutsideTheFenceOrOfAnotherClassOrNotFiniteIsNoTarget) {
-  PlaceFlight flight({}, map_of({car(30, 0)}), {}, box_fence(45, 10));
+  PlaceFlight flight({}, map_of({car(30, 0)}), two_sided(), box_fence(45, 10));
   objects::ObjectMap map = map_of({car(0, 14), car(5, 5), car(NAN, 5)});
   map.objects[1].class_id = kTrunk;
   (void)map_given(map, flight, 10);

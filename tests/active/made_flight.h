@@ -14,8 +14,16 @@ inline bool everywhere(const Eigen::Vector3d&) { return true; }
 
 const core::Budget kBudget = core::Budget::iterations(1000);
 
+/// Policy `visit` as in the paper.
+inline ActiveConfig visiting() {
+  ActiveConfig config;
+  config.policy = PolicyName::visit;
+  return config;
+}
+
 /// Policy `visit` as a heuristic: two opposite sides, oblique where it can be.
-inline ActiveConfig two_sided(ActiveConfig config = {}) {
+inline ActiveConfig two_sided() {
+  ActiveConfig config = visiting();
   config.visit_policy.sides = 2;
   config.visit_policy.oblique_worth_m = 10;
   return config;

@@ -85,7 +85,7 @@ TEST_P(BothChoosers, GoNowhereOnceTheTargetIsKnownWellEnough) {
 
 TEST_P(BothChoosers, GoNowhereAfterAsManyViewpointsAsMayBe) {
   Scene scene = mapped(chooser_, kOne);
-  scene.records[0].expected = GetParam().most_views;
+  scene.records[0].goals = GetParam().most_views;
   const ViewChoice choice = chooser_.choose(scene, 0);
   EXPECT_EQ(choice.verdict, Verdict::none);
   EXPECT_EQ(chooser_.why_none(scene, 0, choice), "as many viewpoints were flown to as may be");

@@ -41,12 +41,12 @@ TEST(Sweep, SweepOfAnEmptyPlaceEndsWithoutTargets) {
 }
 
 TEST(Sweep, SweepIsDoneNeverOrAlwaysWhenConfigured) {
-  ActiveConfig never;
+  ActiveConfig never = visiting();
   never.discovery.sweep.when = SweepWhen::never;
   PlaceFlight idle(kPark, {}, never);
   EXPECT_TRUE(idle.active.idle());
   EXPECT_EQ(idle.fly(), 0);
-  ActiveConfig always;
+  ActiveConfig always = visiting();
   always.discovery.sweep.when = SweepWhen::always;
   PlaceFlight flight(kPark, map_of({kPark[0]}), always);
   EXPECT_LT(flight.fly(), kLong);

@@ -34,7 +34,7 @@ TEST(Visit, WithoutTargetsIsFinishedAtOnce) {
 }
 
 TEST(Visit, ByDefaultLooksAtEachTargetOnce) {
-  Flight flight(kStreet, everywhere, {});
+  Flight flight(kStreet, everywhere, visiting());
   flight.map(kStreet);
   EXPECT_LT(flight.fly(400), 400);
   EXPECT_LE(flight.goals.size(), kStreet.size());

@@ -42,18 +42,18 @@ Belief::Belief(const Covariance& prior, const Covariance& common)
 
 Belief Belief::known_to(const Covariance& covariance) const {
   Belief belief = *this;
-  belief.information_.topLeftCorner<4, 4>() = padded(covariance, 1).inverse() + told_by_hidden();
+  belief.information_.topLeftCorner<4, 4>() = padded(covariance, 1).inverse() + hidden_share();
   return belief;
 }
 
 /// That part of the object's information which goes into what hides its faces.
-Matrix4d Belief::told_by_hidden() const {
+Matrix4d Belief::hidden_share() const {
   const Matrix4d both = information_.topRightCorner<4, 4>();
   return both * information_.bottomRightCorner<4, 4>().llt().solve(both.transpose());
 }
 
 /// Of the object alone: Schur's complement.
-Matrix4d Belief::marginal() const { return information_.topLeftCorner<4, 4>() - told_by_hidden(); }
+Matrix4d Belief::marginal() const { return information_.topLeftCorner<4, 4>() - hidden_share(); }
 
 Matrix4d Belief::covariance() const { return marginal().inverse() + common_; }
 

@@ -59,7 +59,7 @@ class Belief {
   [[nodiscard]] double most_gain(const Information& added) const;
 
  private:
-  [[nodiscard]] Eigen::Matrix4d told_by_hidden() const;
+  [[nodiscard]] Eigen::Matrix4d hidden_share() const;
   [[nodiscard]] Eigen::Matrix4d marginal() const;
 
   Information information_;

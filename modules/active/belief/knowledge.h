@@ -43,9 +43,9 @@ class Knowledge {
   [[nodiscard]] int cells() const { return static_cast<int>(cells_.size()); }
 
   /// What a map that knows the object to `covariance` (given the poses) by now will know after more
-  /// views. Where it knows less than the views so far should have told, they contradict each other,
-  /// and further ones will: they tell so much less, too.
-  /// \param then  of the same target after them
+  /// views. Where it knows less than the views so far should have measured, they contradict each
+  /// other, and further ones will: they tell so much less, too. \param then  of the same target
+  /// after them
   [[nodiscard]] Belief expected(const Covariance& covariance, const Knowledge& then) const;
 
  private:

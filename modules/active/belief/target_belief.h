@@ -7,10 +7,10 @@ namespace saker::active {
 /// What is known of one target: by its views, by the map, and by the less certain of both.
 ///
 /// Reads the target with the map's covariance, and its views. Where the map knows less than the
-/// views should have told, they contradict each other, and the map is believed. The map is late:
-/// it does not hold the last views yet, and counts as if it did. Frames: covariances of [x, y,
-/// length, width] in the target's own frame, m². Cost: one prediction for each dwell.
-/// Refers to all that it is made from.
+/// views should have measured, they contradict each other, and the map is believed. The map is
+/// late: it does not hold the last views yet, and counts as if it did. Frames: covariances of [x,
+/// y, length, width] in the target's own frame, m². Cost: one prediction for each dwell. Refers to
+/// all that it is made from.
 class TargetBelief {
  public:
   TargetBelief(const Target& target, const MappedViewHistory& history, const ViewModel& model,

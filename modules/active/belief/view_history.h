@@ -23,7 +23,7 @@ class ViewHistory {
     int bin = -1;
   };
 
-  /// \param bearings directions that are told apart.
+  /// \param bearings directions that are distinguished.
   /// \param range_step_m ranges that are.
   ViewHistory(int bearings, double range_step_m)
       : bearings_(bearings), range_step_m_(range_step_m) {}

@@ -187,7 +187,7 @@ bool TargetTour::fly_on(int index) {
 void TargetTour::fly_to(int index, const ViewChoice& choice) {
   if (choice.expected) {
     expected_ = choice.expected;
-    ++records_[index].expected;
+    ++records_[index].goals;
   }
   const Phase phase = states_[index].fly_to(choice.viewpoint, vehicle_.position());
   if (phase != Phase::approaching) return;

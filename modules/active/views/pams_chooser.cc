@@ -61,7 +61,7 @@ ViewChoice PamsChooser::choose(const ViewScene& scene, int target) const {
   ViewChoice choice;
   const TargetBelief belief = belief_of(scene, target);
   choice.well_known = belief.is_enough(scene.map);
-  if (choice.well_known || scene.records[target].expected >= config_.most_views) return choice;
+  if (choice.well_known || scene.records[target].goals >= config_.most_views) return choice;
   choice.candidates = sampler_.around(scene.targets[target], target, scene.block);
   for (ViewpointCandidate& candidate : choice.candidates) judge(scene, target, candidate);
   choose_among(scene, target, region_of(scene, target, choice), config_.sampling, choice);
@@ -322,7 +322,7 @@ std::string PamsChooser::why_none(const ViewScene& scene, int target,
                                   const ViewChoice& choice) const {
   if (!scene.targets[target].mapped()) return search_.why_none(scene, target, choice);
   if (choice.well_known) return "known well enough";
-  if (scene.records[target].expected >= config_.most_views) {
+  if (scene.records[target].goals >= config_.most_views) {
     return "as many viewpoints were flown to as may be";
   }
   const bool any = std::ranges::any_of(choice.candidates, [](const ViewpointCandidate& candidate) {

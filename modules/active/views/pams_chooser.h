@@ -32,10 +32,11 @@ namespace saker::active {
 /// viewpoint is weighed for the neighbours that it sees, too; the drift of the pose lessens what
 /// later views are worth; what all views have in common sets an end to what is worth flying; a
 /// better viewpoint replaces the goal; where the map knows less of a target than its views should
-/// have told, for they disagree, the map is believed; a length or width that it does not know keeps
-/// a target open, or opens it again, and is worth all of the lattice where the region's samples are
-/// used up; a target that was known well enough and left the map is searched again. It decides from
-/// where the decision begins to be flown, by the map, which is late, and by what was seen since.
+/// have measured, for they disagree, the map is believed; a length or width that it does not know
+/// keeps a target open, or opens it again, and is worth all of the lattice where the region's
+/// samples are used up; a target that was known well enough and left the map is searched again. It
+/// decides from where the decision begins to be flown, by the map, which is late, and by what was
+/// seen since.
 class PamsChooser : public ViewChooser {
  public:
   /// \param visit  settings of the search, but for those that `pams.search` has

@@ -10,7 +10,7 @@ namespace saker::active {
 /// Bearings are in `world`, from the object to the eye.
 class Sides {
  public:
-  /// \param bins directions that are told apart.
+  /// \param bins directions that are distinguished.
   /// \param dwell_s in view from one of them, until it counts as a side.
   /// \param separation rad, least angle between two sides.
   Sides(int bins, double dwell_s, double separation)

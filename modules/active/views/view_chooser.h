@@ -23,7 +23,7 @@ struct ViewRecord {
   Sides sides;                ///< those of a target that is searched
   MappedViewHistory history;  ///< all views
   int cells = 0;              ///< of the uncertainty model: the most that ever counted
-  int expected = 0;           ///< viewpoints that were flown to with an expectation
+  int goals = 0;              ///< viewpoints that were flown to since the map has it
   bool well_known = false;    ///< when last asked
 };
 
