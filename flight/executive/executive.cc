@@ -47,7 +47,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       planning_(config.autonomy.planning, autonomy::active_as_flown(config.autonomy, input.sensor),
                 config.autonomy.motion, config.autonomy.objects, input.prior,
                 config.autonomy.mission.height_m, uncertainty_),
-      has_targets_(!planning_.policy().idle()),
+      has_targets_(!planning_.active().idle()),
       guidance_(config.autonomy.guidance),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()),
       exchange_(input.exchange),
@@ -203,7 +203,7 @@ double Executive::age_ms(Time stamp) const {
 
 void Executive::save(const std::filesystem::path& out) {
   const slam::Slam& slam = mapping_.slam();
-  const objects::ObjectMap map = mapping_.map_with_covariance(planning_.policy().targets());
+  const objects::ObjectMap map = mapping_.map_with_covariance(planning_.active().targets());
   objects::write_map(out / "map.json", map, config_.autonomy.objects);
   objects::write_map(out / "map.smap", map, config_.autonomy.objects);
   std::string world, odom;

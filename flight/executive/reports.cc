@@ -18,7 +18,7 @@ counter_t counter(const std::string& name, long value) {
   return message;
 }
 
-candidate_t to_lcm(const active::Candidate& candidate) {
+candidate_t to_lcm(const active::ViewpointCandidate& candidate) {
   candidate_t message{};
   message.target_id = candidate.viewpoint.target_id;
   for (int i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ void Executive::publish_plan(const autonomy::Planning::Output& output) {
   }
   message.num_tour = static_cast<std::int32_t>(message.tour.size());
   message.choice = -1;
-  for (const active::Candidate& candidate : output.plan.candidates) {
+  for (const active::ViewpointCandidate& candidate : output.plan.candidates) {
     if (static_cast<int>(message.candidates.size()) >= plan_t::MAX_CANDIDATES) break;
     const bool chosen = output.plan.goal && candidate.viewpoint.id == output.plan.goal->id;
     if (candidate.refusal != active::Refusal::none && !chosen) continue;

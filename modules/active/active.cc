@@ -1,75 +1,77 @@
 #include "saker/active/active.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "saker/active/pams.h"
-#include "saker/active/visit.h"
+#include "saker/active/belief/view_model.h"
+#include "saker/active/views/pams_chooser.h"
+#include "saker/active/views/visit_chooser.h"
 #include "saker/core/error.h"
 
 namespace saker::active {
 namespace {
 
-void check_pams(const PamsConfig& pams, const GoalsConfig& goals, const std::string& name) {
-  const double prior = 2 * std::log(pams.prior_place_m) + std::log(pams.prior_length_m) +
-                       std::log(pams.prior_width_m);
-  if (pams.enough_entropy >= prior) {
-    throw Error("active." + name + ".enough_entropy: " + std::to_string(pams.enough_entropy) +
-                ", expected less than the prior's " + std::to_string(prior) +
-                ", or nothing is ever looked at");
+std::unique_ptr<const ViewChooser> make_chooser(const ActiveConfig& config,
+                                                const objects::ClassTable& table,
+                                                const ViewpointSampler& sampler,
+                                                std::shared_ptr<const uncertainty::Model> model,
+                                                const motion::LimitsConfig& limits) {
+  if (config.policy == PolicyName::visit) {
+    return std::make_unique<VisitChooser>(config.visit_policy, sampler);
   }
-  if (goals.standing_s <= 2 * pams.dwell_s) {
-    throw Error("active.goals.standing_s: " + std::to_string(goals.standing_s) +
-                ", expected more than two dwells (active." + name +
-                ".dwell_s), or no view ever counts");
-  }
+  if (!model) throw Error("active.policy: paper and saker need an uncertainty model, found none");
+  return std::make_unique<PamsChooser>(pams_of(config), config.visit_policy, sampler,
+                                       view_model_of(std::move(model), config.region, table),
+                                       limits);
 }
 
-ActiveConfig checked_config(const ActiveConfig& config) {
-  const ActiveConfig valid = core::checked(config, "active");
-  const VisitConfig& visit = valid.visit_policy;
-  const int sides = std::max({visit.sides, valid.paper.search.sides, valid.saker.search.sides});
-  if (sides > 1 && visit.separation_deg > 180.0 / (sides - 1)) {
-    throw Error("active.visit.separation_deg: " + std::to_string(visit.separation_deg) +
-                ", expected at most 180 / (sides - 1), or a side may find no room");
-  }
-  const double dwell_s =
-      std::max({visit.dwell_s, valid.paper.search.dwell_s, valid.saker.search.dwell_s});
-  if (valid.goals.standing_s <= 2 * dwell_s) {
-    throw Error("active.goals.standing_s: " + std::to_string(valid.goals.standing_s) +
-                ", expected more than two dwells of a side, or none is ever seen");
-  }
-  const FieldOfViewConfig& view = valid.view;
-  if (view.nearest_m >= view.farthest_m) {
-    throw Error("active.view.nearest_m: " + std::to_string(view.nearest_m) +
-                ", expected less than farthest_m");
-  }
-  check_pams(valid.paper, valid.goals, "paper");
-  check_pams(valid.saker, valid.goals, "saker");
-  return valid;
-}
-
-/// The settings of a policy by information gain; that of `visit` has none.
-const PamsConfig& pams_of(const ActiveConfig& config) {
-  return config.policy == PolicyName::paper ? config.paper : config.saker;
+bool is_swept(const SweepConfig& config, const std::vector<Target>& targets) {
+  return config.when == SweepWhen::always ||
+         (config.when == SweepWhen::without_prior && without_prior(targets));
 }
 
 }  // namespace
 
-std::unique_ptr<TargetPolicy> make_policy(const ActiveConfig& config,
-                                          const objects::ClassTable& table,
-                                          const objects::ObjectMap& prior, InGeofence in_geofence,
-                                          std::shared_ptr<const uncertainty::Model> model,
-                                          const motion::LimitsConfig& limits) {
-  const ActiveConfig valid = checked_config(config);
+TargetTour make_tour(const ActiveConfig& config, const objects::ClassTable& table,
+                     const objects::ObjectMap& prior, InGeofence in_geofence,
+                     std::shared_ptr<const uncertainty::Model> model,
+                     const motion::LimitsConfig& limits) {
+  const ActiveConfig valid = checked(config);
   TargetList targets(valid.targets, table, prior);
-  if (valid.policy == PolicyName::visit) {
-    return std::make_unique<VisitPolicy>(valid, std::move(targets), std::move(in_geofence));
+  const ViewpointSampler sampler(valid.viewpoints, valid.view, std::move(in_geofence));
+  auto chooser = make_chooser(valid, table, sampler, std::move(model), limits);
+  return {valid, std::move(targets), sampler, std::move(chooser)};
+}
+
+Active::Active(const ActiveConfig& config, const objects::ClassTable& table,
+               const objects::ObjectMap& prior, const motion::Geofence& fence,
+               std::shared_ptr<const uncertainty::Model> model, const motion::LimitsConfig& limits)
+    : tour_(make_tour(
+          config, table, prior, [fence](const Eigen::Vector3d& p) { return fence.contains(p); },
+          std::move(model), limits)),
+      discovery_(config, table, fence) {
+  if (is_swept(config.discovery.sweep, targets())) sweep_.emplace(config, fence);
+}
+
+ActivePlan Active::plan(const ActiveInput& input, const core::Budget& budget) {
+  if (!input.T_world_odom.matrix().allFinite()) return {};
+  if (!vehicle_.advance(input.stamp, input.T_world_body)) return {};
+  const OccupancyView block{input.grid.get(), input.T_world_odom.inverse()};
+  discovery_.update(vehicle_, input.map.get(), block, tour_.target_list());
+  if (sweep_) sweep_->observe(vehicle_, block, input.map.get());
+  ActivePlan plan = tour_.plan(input, budget);
+  if (!sweep_) return plan;
+  if (plan.status == ActiveStatus::finished) {
+    plan.goal = sweep_->next(vehicle_, block, input.map.get());
+    if (plan.goal) plan.status = ActiveStatus::flying;
+  } else {
+    sweep_->leave();
   }
-  if (!model) throw Error("active.policy: paper and saker need an uncertainty model, found none");
-  return std::make_unique<PamsPolicy>(valid, pams_of(valid), std::move(targets),
-                                      std::move(in_geofence),
-                                      view_model_of(std::move(model), valid.region, table), limits);
+  plan.seen_share = sweep_->seen_share();
+  return plan;
+}
+
+void Active::refuse(int viewpoint_id, const std::string& reason) {
+  if (!sweep_ || !sweep_->refuse(viewpoint_id)) tour_.refuse(viewpoint_id, reason);
 }
 
 }  // namespace saker::active

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "saker/active/targets.h"
+#include "saker/active/tour/targets.h"
 #include "saker/objects/object_map.h"
 
 namespace saker::autonomy {

@@ -210,7 +210,7 @@ void MissionLockstep::supervise(Time now) {
   input.acks = std::exchange(acks_, {});
   input.planning = report_;
   input.stop = guidance_.last_stop();
-  input.has_targets = !planning_.policy().idle();
+  input.has_targets = !planning_.active().idle();
   const Mission::Output output = supervisor_.step(std::move(input));
 
   orders_ = output.orders;
@@ -245,7 +245,7 @@ void MissionLockstep::send_trajectory() {
 MissionResult MissionLockstep::finish() {
   if (last_map_.valid()) last_map_.wait();
   const slam::Slam& slam = mapping_.slam();
-  result_.targets = planning_.policy().targets();
+  result_.targets = planning_.active().targets();
   result_.map = mapping_.map_with_covariance(result_.targets);
   result_.history = slam.history();
   for (std::size_t i = 0; i < result_.scans.size(); ++i) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "saker/active/targets.h"
+#include "saker/active/tour/targets.h"
 #include "saker/autonomy/fitted_noise.h"
 #include "saker/autonomy/open_beams.h"
 #include "saker/autonomy/plant.h"

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "saker/active/discovery.h"
 #include "saker/core/error.h"
 
 namespace saker::autonomy {
@@ -40,13 +39,7 @@ Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& act
     : config_(core::checked(config, "planning")),
       view_(active.view),
       planner_(motion),
-      policy_(std::make_unique<active::Discovery>(
-          active, table,
-          active::make_policy(
-              active, table, prior,
-              [fence = planner_.geofence()](const Eigen::Vector3d& p) { return fence.contains(p); },
-              std::move(model), motion.limits),
-          planner_.geofence())),
+      active_(active, table, prior, planner_.geofence(), std::move(model), motion.limits),
       home_(0, 0, home_height_m) {
   if (active::sees_ahead(view_)) return;
   throw Error(
@@ -74,7 +67,7 @@ Planning::Output Planning::step(const PlanningInput& input, const core::Budget& 
 }
 
 void Planning::count_targets(const active::ActivePlan& plan, PlanningReport& report) const {
-  report.targets = static_cast<int>(policy_->targets().size());
+  report.targets = static_cast<int>(active_.targets().size());
   report.visited = plan.done + plan.visited;
   report.unreachable = plan.unreachable;
   if (plan.goal) report.target = plan.goal->target_id;
@@ -93,7 +86,7 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
   seen.start = {start_time(input),
                 seen.T_world_odom * active::level_pose(start.position, start.yaw)};
   seen.grid = input.grid;
-  output.plan = policy_->plan(seen, budget);
+  output.plan = active_.plan(seen, budget);
   const active::ActivePlan& plan = output.plan;
   PlanningReport& report = output.report;
   count_targets(plan, report);
@@ -114,7 +107,7 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
                   plan.goal->yaw + core::yaw(T_odom_world.linear())};
   if (way_to(goal, input, budget, output) != Way::refused) return;
   if (refusals_ < config_.most_refusals) return;
-  policy_->refuse(plan.goal->id, report.text);
+  active_.refuse(plan.goal->id, report.text);
   report.status = PlanningStatus::gave_up;
   report.text = fmt::format("viewpoint {} of target {} given up: {}", plan.goal->id,
                             plan.goal->target_id, report.text);

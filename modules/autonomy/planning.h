@@ -13,10 +13,10 @@
 /// The step of planning, 1 Hz — reads the map, the occupancy block and what is being flown, makes a
 /// proposal to guidance and a report for the mission.
 ///
-/// The policy chooses a viewpoint in `world`; it is moved by T_world_odom to `odom`, where the
+/// Active mapping chooses a viewpoint in `world`; it is moved by T_world_odom to `odom`, where the
 /// motion planner finds the way from the committed trajectory at now + horizon. Nothing is proposed
 /// while what is committed leads there. After `most_refusals` in a row the viewpoint is given back
-/// to the policy, which offers another one or ends; on the way home it is given up. Every refusal
+/// to it, which offers another one or ends; on the way home it is given up. Every refusal
 /// brings one of the two nearer: there is no livelock.
 namespace saker::autonomy {
 
@@ -67,11 +67,11 @@ class Planning {
   struct Output {
     PlanningReport report;
     std::optional<Proposal> proposal;
-    active::ActivePlan plan;  ///< of the policy; empty on the way home
+    active::ActivePlan plan;  ///< empty on the way home
   };
   [[nodiscard]] Output step(const PlanningInput& input, const core::Budget& budget);
 
-  [[nodiscard]] const active::Policy& policy() const { return *policy_; }
+  [[nodiscard]] const active::Active& active() const { return active_; }
   [[nodiscard]] const motion::Geofence& geofence() const { return planner_.geofence(); }
 
  private:
@@ -97,7 +97,7 @@ class Planning {
   PlanningConfig config_;
   active::FieldOfViewConfig view_;
   motion::MotionPlanner planner_;
-  std::unique_ptr<active::Policy> policy_;
+  active::Active active_;
   Eigen::Vector3d home_;  // world
   PlanningOrder last_order_ = PlanningOrder::none;
   int goal_id_ = -1;  // the viewpoint of the last step

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "saker/active/targets.h"
+#include "saker/active/tour/targets.h"
 #include "saker/motion/geofence.h"
 #include "saker/objects/class_table.h"
 #include "saker/objects/object_map.h"

@@ -55,7 +55,7 @@ struct Near {
 };
 
 /// The nearest ones of both kinds among those that are too near.
-struct Surroundings {
+struct Proximity {
   Near occupied, unknown;
   double clearance_m = std::numeric_limits<double>::infinity();  ///< to what is occupied
 
@@ -100,7 +100,7 @@ class Checker {
       verdict.reason = VerdictReason::unknown;
       return false;
     }
-    const Surroundings near = around(p, leaves_ && in_ball(p));
+    const Proximity near = around(p, leaves_ && in_ball(p));
     const double clearance = std::min({near.clearance_m, config_.clearance_reach_m,
                                        std::max(field_.at(p), clearance_.least_m())});
     verdict.clearance_m = std::fmin(verdict.clearance_m, clearance);
@@ -122,8 +122,8 @@ class Checker {
   }
 
   /// What is too near to `p`: within radius and margin, or what is kept on the way out.
-  [[nodiscard]] Surroundings around(const Vector3d& p, bool leaving) const {
-    Surroundings near;
+  [[nodiscard]] Proximity around(const Vector3d& p, bool leaving) const {
+    Proximity near;
     const double reach = clearance_.least_m();
     const Vector3i low = grid_.index_of((p.array() - reach).matrix());
     const Vector3i high = grid_.index_of((p.array() + reach).matrix());
@@ -133,7 +133,7 @@ class Checker {
     return near;
   }
 
-  void take(const Vector3i& index, const Vector3d& p, bool leaving, Surroundings& near) const {
+  void take(const Vector3i& index, const Vector3d& p, bool leaving, Proximity& near) const {
     const Cell cell = grid_.contains(index) ? grid_.cells[grid_.offset(index)] : Cell::unknown;
     if (cell == Cell::free) return;
     const Vector3d centre = grid_.centre_of(index);

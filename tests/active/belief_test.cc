@@ -1,4 +1,4 @@
-#include "saker/active/belief.h"
+#include "saker/active/belief/belief.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "saker/active/coverage.h"
+#include "saker/active/discovery/coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "made_fence.h"
 #include "made_street.h"
-#include "saker/active/column.h"
+#include "saker/active/discovery/column.h"
 #include "saker/core/error.h"
 
 namespace saker::active {
@@ -25,7 +25,7 @@ int fly_over(Coverage& coverage, const occupancy::OccupancyGrid& grid,
   for (auto next = coverage.next(); next && flown < 10'000; next = coverage.next(), ++flown) {
     const Vector2d place = coverage.stops()[*next];
     for (int second = 0; second < 3; ++second) {
-      coverage.look({place.x(), place.y(), 3}, 0, 1, {&grid, SE3::Identity()}, map);
+      coverage.observe({place.x(), place.y(), 3}, 0, 1, {&grid, SE3::Identity()}, map);
     }
     coverage.close(*next);
   }
@@ -78,10 +78,10 @@ TEST(Coverage, DoesNotCountWhatIsUnknown) {
 TEST(Coverage, CountsNoGlance) {
   Coverage coverage({}, kView, box_fence(10, 10));
   const auto grid = free_grid(30);
-  coverage.look({0, 0, 3}, 0, 2.5, {&grid, SE3::Identity()}, nullptr);
+  coverage.observe({0, 0, 3}, 0, 2.5, {&grid, SE3::Identity()}, nullptr);
   EXPECT_EQ(coverage.seen_share(), 0);
   EXPECT_TRUE(coverage.next());
-  coverage.look({0, 0, 3}, 0, 1, {&grid, SE3::Identity()}, nullptr);
+  coverage.observe({0, 0, 3}, 0, 1, {&grid, SE3::Identity()}, nullptr);
   EXPECT_EQ(coverage.seen_share(), 1);
   EXPECT_FALSE(coverage.next());
 }
@@ -93,10 +93,10 @@ TEST(Coverage, OfALidarOnItsSideIsWhatLiesUnderTheVehicleAndAheadOfIt) {
   view.farthest_m = 30;
   Coverage coverage({}, view, box_fence(20, 20));
   const auto grid = free_grid(30);
-  coverage.look({0, 0, 20}, 0, 4, {&grid, SE3::Identity()}, nullptr);
+  coverage.observe({0, 0, 20}, 0, 4, {&grid, SE3::Identity()}, nullptr);
   const double share = coverage.seen_share();
   EXPECT_NEAR(share, 0.45, 0.1);  // ±8.3 m to the sides under it, ±11.7 m at its ends
-  coverage.look({0, 0, 20}, std::numbers::pi / 2, 4, {&grid, SE3::Identity()}, nullptr);
+  coverage.observe({0, 0, 20}, std::numbers::pi / 2, 4, {&grid, SE3::Identity()}, nullptr);
   EXPECT_GT(coverage.seen_share(), 1.4 * share);
 }
 
@@ -129,13 +129,13 @@ TEST(Column, IsFreeOccupiedUnknownOrOfAMappedObject) {
   auto grid = free_grid(20);
   fill(grid, {4, 4, 0}, {6, 6, 1});
   fill(grid, {-6, -6, 0}, {-4, -4, 2}, occupancy::Cell::unknown);
-  const Surroundings seen{&grid, SE3::Identity()};
+  const OccupancyView seen{&grid, SE3::Identity()};
   const objects::ObjectMap map = map_of({car(-10, 10)});
   EXPECT_EQ(standing_at({0, 0}, seen, &map), Standing::nothing);
   EXPECT_EQ(standing_at({5, 5}, seen, &map), Standing::something);
   EXPECT_EQ(standing_at({-5, -5}, seen, &map), Standing::unknown);
   EXPECT_EQ(standing_at({-11, 10.5}, seen, &map), Standing::mapped);
-  EXPECT_EQ(standing_at({0, 0}, Surroundings(), &map), Standing::unknown);
+  EXPECT_EQ(standing_at({0, 0}, OccupancyView(), &map), Standing::unknown);
 }
 
 TEST(Column, StandsOnTheNearestMappedGround) {

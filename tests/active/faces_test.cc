@@ -1,4 +1,4 @@
-#include "saker/active/faces.h"
+#include "saker/active/belief/faces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "saker/active/field_of_view.h"
+#include "saker/active/views/field_of_view.h"
 
 #include <gtest/gtest.h>
 
@@ -129,7 +129,7 @@ TEST(FieldOfView, WhereALidarLooksToIsMidwayBetweenItsBeams) {
   int midway = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const FieldOfViewConfig view = tilted(rng.uniform(-120, 120), rng.uniform(-60, 60));
-    const double elevation = rng.uniform(-1.2, 0.3), azimuth = looks_to(elevation, view);
+    const double elevation = rng.uniform(-1.2, 0.3), azimuth = viewing_azimuth(elevation, view);
     const auto over_middle_deg = [&](double direction) {
       const Eigen::Vector3d ray(std::cos(direction) * std::cos(elevation),
                                 std::sin(direction) * std::cos(elevation), std::sin(elevation));
@@ -143,7 +143,7 @@ TEST(FieldOfView, WhereALidarLooksToIsMidwayBetweenItsBeams) {
     midway += over_middle_deg(azimuth) < 1e-6;
   }
   EXPECT_GT(midway, 100);
-  EXPECT_EQ(looks_to(-0.5, kView), 0) << "level: all around";
+  EXPECT_EQ(viewing_azimuth(-0.5, kView), 0) << "level: all around";
 }
 
 TEST(FieldOfView, OfALevelLidarIsTheWholeHorizonAndOfATiltedOneAPart) {

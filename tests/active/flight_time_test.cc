@@ -1,4 +1,4 @@
-#include "saker/active/flight_time.h"
+#include "saker/active/views/flight_time.h"
 
 #include <gtest/gtest.h>
 

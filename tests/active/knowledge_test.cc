@@ -1,4 +1,4 @@
-#include "saker/active/knowledge.h"
+#include "saker/active/belief/knowledge.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Eigen::Vector3d eye_at(double bearing, double range = kRange) {
   return {range * std::cos(bearing), range * std::sin(bearing), 3};
 }
 
-Looks no_looks() { return Looks(24, 1.5); }
+ViewHistory no_views() { return ViewHistory(24, 1.5); }
 
 PamsConfig config_with(double common = 0) {
   PamsConfig config;
@@ -37,8 +37,9 @@ PamsConfig config_with(double common = 0) {
   return config;
 }
 
-Knowledge known(const Looks& looks, double yaw = 0, const PamsConfig& config = config_with()) {
-  return Knowledge(car_at_origin(yaw), looks, oblique_model(), config);
+Knowledge known(const ViewHistory& views, double yaw = 0,
+                const PamsConfig& config = config_with()) {
+  return Knowledge(car_at_origin(yaw), views, oblique_model(), config);
 }
 
 TEST(Predicted, AViewThatShowsAVehicleEveryFourthTimeTellsAQuarter) {
@@ -54,56 +55,11 @@ TEST(Predicted, AViewThatShowsAVehicleEveryFourthTimeTellsAQuarter) {
   EXPECT_TRUE(of(seldom).isApprox(4 * of(oblique_model()), 1e-9));
 }
 
-TEST(Looks, OfOnePlaceAreOneHoweverManyThereAre) {
-  Looks looks = no_looks();
-  for (int i = 0; i < 100; ++i) looks.add(eye_at(0.01 * (i % 3)), {0, 0, 0}, 0.5, i);
-  ASSERT_EQ(looks.all().size(), 1U);
-  EXPECT_NEAR(looks.all()[0].seconds, 50, 1e-9);
-  EXPECT_LT((looks.all()[0].eye - eye_at(0.01)).norm(), 0.01);
-  EXPECT_EQ(looks.first_m(), 0);
-  EXPECT_NEAR(looks.all()[0].flown_m, 49.5, 1e-9);
-}
-
-TEST(Looks, NearAPlaceAreThoseWithinADistanceOfIt) {
-  Looks looks = no_looks();
-  looks.add({10, 0, 0}, {0, 0, 0}, 0.4, 0);
-  looks.add({10, 1.6, 0}, {0, 0, 0}, 0.7, 2);
-  EXPECT_NEAR(looks.seconds_near({10, 0.3, 0}, 0.5), 0.4, 1e-9);
-  EXPECT_NEAR(looks.seconds_near({10, 0.8, 0}, 1), 1.1, 1e-9);
-  EXPECT_EQ(looks.seconds_near({10, 0, 0}, 0), 0);
-}
-
-TEST(Looks, AreInAMapOnceItHoldsWhatWasMeasuredUntilTheyEnded) {
-  LooksAndMap looks(no_looks());
-  looks.add(1000, {10, 0, 0}, {0, 0, 0}, 0.4, 0);
-  looks.add(2000, {0, 10, 0}, {0, 0, 0}, 0.7, 12);
-  EXPECT_EQ(looks.so_far().all().size(), 2U);
-  EXPECT_TRUE(looks.in_map().all().empty());
-  looks.map_holds(1999);
-  ASSERT_EQ(looks.in_map().all().size(), 1U);
-  EXPECT_NEAR(looks.in_map().all()[0].seconds, 0.4, 1e-12);
-  looks.map_holds(2000);
-  EXPECT_EQ(looks.in_map().all().size(), 2U);
-  EXPECT_EQ(looks.in_map().first_m(), 0);
-}
-
-TEST(Looks, FromAllAroundAreNoMoreThanTheBins) {
-  Looks looks = no_looks();
-  for (int i = 0; i < 5000; ++i) looks.add(eye_at(0.37 * i, 4 + i % 12), {0, 0, 0}, 0.1, 0);
-  EXPECT_LE(looks.all().size(), 24U * 9);
-}
-
-TEST(Looks, WithoutTimeAreNone) {
-  Looks looks = no_looks();
-  looks.add(eye_at(0), {0, 0, 0}, 0, 0);
-  EXPECT_TRUE(looks.all().empty());
-}
-
 TEST(Knowledge, BeforeAnyLookIsThePrior) {
   const PamsConfig config = config_with();
   const Eigen::Matrix4d prior = prior_covariance(config, false);
-  EXPECT_TRUE(known(no_looks()).belief().covariance().isApprox(prior, 1e-12));
-  EXPECT_EQ(known(no_looks()).cells(), 0);
+  EXPECT_TRUE(known(no_views()).belief().covariance().isApprox(prior, 1e-12));
+  EXPECT_EQ(known(no_views()).cells(), 0);
 }
 
 TEST(Knowledge, CellCountsAfterADwellAndOnceHoweverLongItIs) {
@@ -111,75 +67,75 @@ TEST(Knowledge, CellCountsAfterADwellAndOnceHoweverLongItIs) {
   const double bearing = 0.3;
   const uncertainty::View view = view_from(eye_at(bearing), car_at_origin(), oblique_model());
   const int cell = predict(kVehicle, view).cell;
-  Looks looks = no_looks();
-  looks.add(eye_at(bearing), {0, 0, 0}, config.dwell_s - 0.1, 0);
-  EXPECT_FALSE(known(looks).counted(cell));
-  looks.add(eye_at(bearing), {0, 0, 0}, 0.2, 0);
-  EXPECT_TRUE(known(looks).counted(cell));
-  const double entropy = known(looks).belief().entropy();
-  looks.add(eye_at(bearing), {0, 0, 0}, 100, 0);
-  EXPECT_NEAR(known(looks).belief().entropy(), entropy, 1e-12);
+  ViewHistory views = no_views();
+  views.add(eye_at(bearing), {0, 0, 0}, config.dwell_s - 0.1, 0);
+  EXPECT_FALSE(known(views).counted(cell));
+  views.add(eye_at(bearing), {0, 0, 0}, 0.2, 0);
+  EXPECT_TRUE(known(views).counted(cell));
+  const double entropy = known(views).belief().entropy();
+  views.add(eye_at(bearing), {0, 0, 0}, 100, 0);
+  EXPECT_NEAR(known(views).belief().entropy(), entropy, 1e-12);
 }
 
 TEST(Knowledge, AfterCellsIsTheInverseOfTheSumOfTheirInformation) {
-  Looks looks = no_looks();
+  ViewHistory views = no_views();
   double information = 4;  // of a prior of 0.5 m
   for (const double bearing : {0.3, 1.3, -2.0}) {
-    looks.add(eye_at(bearing), {0, 0, 0}, 3, 0);
+    views.add(eye_at(bearing), {0, 0, 0}, 3, 0);
     information += std::pow(view_sd(bearing), -2);
   }
-  const Knowledge now = known(looks);
+  const Knowledge now = known(views);
   EXPECT_EQ(now.cells(), 3);
   EXPECT_TRUE(now.belief().covariance().isApprox(Eigen::Matrix4d::Identity() / information, 1e-9));
 }
 
 TEST(Knowledge, ChangesWithTheEstimateOfTheHeading) {
-  Looks looks = no_looks();
-  looks.add(eye_at(pi / 4), {0, 0, 0}, 3, 0);
-  EXPECT_LT(known(looks, 0).belief().entropy(), known(looks, pi / 4).belief().entropy() - 1);
+  ViewHistory views = no_views();
+  views.add(eye_at(pi / 4), {0, 0, 0}, 3, 0);
+  EXPECT_LT(known(views, 0).belief().entropy(), known(views, pi / 4).belief().entropy() - 1);
 }
 
 TEST(Knowledge, OfLaterLooksIsLessWhenDriftCounts) {
   PamsConfig config = config_with();
   config.drift_m = 0.05;
-  Looks looks = no_looks();
-  looks.add(eye_at(0.7), {0, 0, 0}, 3, 0);
-  looks.add(eye_at(2.3), {0, 0, 0}, 3, 30);
-  const Eigen::Matrix4d without = known(looks, 0, config).belief().covariance();
+  ViewHistory views = no_views();
+  views.add(eye_at(0.7), {0, 0, 0}, 3, 0);
+  views.add(eye_at(2.3), {0, 0, 0}, 3, 30);
+  const Eigen::Matrix4d without = known(views, 0, config).belief().covariance();
   config.drift_counts = true;
-  const Eigen::Matrix4d with = known(looks, 0, config).belief().covariance();
+  const Eigen::Matrix4d with = known(views, 0, config).belief().covariance();
   EXPECT_GT(with(0, 0), without(0, 0));
   EXPECT_NEAR(with(2, 2), without(2, 2), 1e-12);
 }
 
 TEST(Knowledge, WhatIsExpectedIsTheMapsAndTheCellsThatAreNew) {
   const Covariance map(Eigen::Vector4d(0.01, 0.01, 0.04, 0.02).asDiagonal());
-  Looks looks = no_looks();
-  looks.add(eye_at(0.3), {0, 0, 0}, 3, 0);
-  const Knowledge now = known(looks);
+  ViewHistory views = no_views();
+  views.add(eye_at(0.3), {0, 0, 0}, 3, 0);
+  const Knowledge now = known(views);
   EXPECT_TRUE(now.expected(map, now).covariance().isApprox(map, 1e-9));
-  looks.add(eye_at(-2.0), {0, 0, 0}, 3, 0);
+  views.add(eye_at(-2.0), {0, 0, 0}, 3, 0);
   const double length = 1 / (1 / 0.04 + std::pow(view_sd(-2.0), -2));
-  EXPECT_NEAR(now.expected(map, known(looks)).covariance()(2, 2), length, 1e-9);
+  EXPECT_NEAR(now.expected(map, known(views)).covariance()(2, 2), length, 1e-9);
 }
 
 TEST(Knowledge, WhereViewsContradictEachOtherTheNextIsExpectedToTellLess) {
-  Looks looks = no_looks();
-  looks.add(eye_at(0.3), {0, 0, 0}, 3, 0);
-  looks.add(eye_at(1.3), {0, 0, 0}, 3, 0);
-  const Knowledge now = known(looks);
+  ViewHistory views = no_views();
+  views.add(eye_at(0.3), {0, 0, 0}, 3, 0);
+  views.add(eye_at(1.3), {0, 0, 0}, 3, 0);
+  const Knowledge now = known(views);
   const Covariance map(9 * now.belief().covariance());
-  looks.add(eye_at(-2.0), {0, 0, 0}, 3, 0);
-  const Eigen::Matrix4d then = known(looks).belief().covariance();
-  EXPECT_TRUE(now.expected(map, known(looks)).covariance().isApprox(9 * then, 1e-6));
+  views.add(eye_at(-2.0), {0, 0, 0}, 3, 0);
+  const Eigen::Matrix4d then = known(views).belief().covariance();
+  EXPECT_TRUE(now.expected(map, known(views)).covariance().isApprox(9 * then, 1e-6));
 }
 
 TEST(Knowledge, HoldsWhatIsCommonWhereItCounts) {
   PamsConfig config = config_with();
   config.common_counts = true;
-  Looks looks = no_looks();
-  for (int i = 0; i < 12; ++i) looks.add(eye_at(i * pi / 6 + 0.1), {0, 0, 0}, 3, 0);
-  EXPECT_GT(known(looks, 0, config).belief().covariance()(2, 2), 0.05 * 0.05);
+  ViewHistory views = no_views();
+  for (int i = 0; i < 12; ++i) views.add(eye_at(i * pi / 6 + 0.1), {0, 0, 0}, 3, 0);
+  EXPECT_GT(known(views, 0, config).belief().covariance()(2, 2), 0.05 * 0.05);
 }
 
 }  // namespace

@@ -14,17 +14,24 @@ inline bool everywhere(const Eigen::Vector3d&) { return true; }
 
 const core::Budget kBudget = core::Budget::iterations(1000);
 
-/// Policy `visit` as a heuristic: two opposite sides, oblique where it can be.
-inline ActiveConfig two_sided(ActiveConfig config = {}) {
+/// Policy `visit` as in the paper.
+inline ActiveConfig visiting() {
+  ActiveConfig config;
   config.policy = PolicyName::visit;
+  return config;
+}
+
+/// Policy `visit` as a heuristic: two opposite sides, oblique where it can be.
+inline ActiveConfig two_sided() {
+  ActiveConfig config = visiting();
   config.visit_policy.sides = 2;
   config.visit_policy.oblique_worth_m = 10;
   return config;
 }
 
-/// A vehicle that flies straight to what the policy says, a decision a second.
+/// A vehicle that flies straight to what the tour says, a decision a second.
 struct Flight {
-  explicit Flight(std::unique_ptr<Policy> made) : policy(std::move(made)) {}
+  explicit Flight(TargetTour made) : tour(std::move(made)) {}
 
   void map(const std::vector<objects::Cuboid>& cars) {
     input.map = std::make_shared<const objects::ObjectMap>(map_of(cars));
@@ -34,7 +41,7 @@ struct Flight {
   const ActivePlan& decide() {
     input.stamp += kNanosecondsPerSecond;
     input.T_world_body.translation() = body;
-    plan = policy->plan(input, kBudget);
+    plan = tour.plan(input, kBudget);
     if (plan.goal && (goals.empty() || goals.back().id != plan.goal->id)) {
       goals.push_back(*plan.goal);
     }
@@ -52,9 +59,9 @@ struct Flight {
     return most;
   }
 
-  [[nodiscard]] const Target& target(int index) const { return policy->targets()[index]; }
+  [[nodiscard]] const Target& target(int index) const { return tour.targets()[index]; }
 
-  std::unique_ptr<Policy> policy;
+  TargetTour tour;
   ActiveInput input;
   ActivePlan plan;
   Eigen::Vector3d body = {0, 0, 3};

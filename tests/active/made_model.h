@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "saker/active/view_model.h"
+#include "saker/active/belief/view_model.h"
 
 /// A made model of what views are worth, for tests: cells of 30° by 3 m, oblique views best.
 namespace saker::active::made {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "made_flight.h"
-#include "made_model.h"
-#include "saker/active/pams.h"
+#include "made_pams_flight.h"
 
 namespace saker::active {
 namespace {
@@ -17,16 +15,13 @@ using namespace made;
 struct KnownButForItsLength : Flight {
   explicit KnownButForItsLength(const PamsConfig& pams, const InGeofence& fence = everywhere,
                                 bool discovered = false)
-      : Flight(policy_for(pams, fence, discovered)) {}
+      : Flight(tour_for(pams, fence, discovered)) {}
 
-  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams, const InGeofence& fence,
-                                            bool discovered) {
-    const ActiveConfig config;
+  static TargetTour tour_for(const PamsConfig& pams, const InGeofence& fence, bool discovered) {
     const objects::ObjectMap map = map_of({car(20, 5)});
-    TargetList targets(config.targets, {}, discovered ? objects::ObjectMap() : map);
+    TargetList targets({}, {}, discovered ? objects::ObjectMap() : map);
     if (discovered) targets.add(map.objects[0], true);
-    return std::make_unique<PamsPolicy>(config, pams, std::move(targets), fence, oblique_model(0),
-                                        motion::LimitsConfig{});
+    return pams_tour(pams, std::move(targets), fence, oblique_model(0));
   }
 
   void know_length_to(double length_sd) {
@@ -143,19 +138,17 @@ TEST(PamsSize, ADiscoveredTargetWithoutAPriorMapHasThePriceOfAll) {
 
 /// A vehicle on the prior map that is well known, and one beside it whose length is not.
 struct BesideAPriorMap : Flight {
-  explicit BesideAPriorMap(const PamsConfig& pams) : Flight(policy_for(pams)) {
+  explicit BesideAPriorMap(const PamsConfig& pams) : Flight(tour_for(pams)) {
     objects::ObjectMap map = map_of({car(40, -4), car(20, 5)});
     for (objects::MapObject& object : map.objects) object.covariance = 1e-4 * Matrix9d::Identity();
     map.objects[1].covariance(6, 6) = 0.25;
     input.map = std::make_shared<const objects::ObjectMap>(map);
   }
 
-  static std::unique_ptr<Policy> policy_for(const PamsConfig& pams) {
-    const ActiveConfig config;
-    TargetList targets(config.targets, {}, map_of({car(40, -4)}));
+  static TargetTour tour_for(const PamsConfig& pams) {
+    TargetList targets({}, {}, map_of({car(40, -4)}));
     targets.add(map_of({car(40, -4), car(20, 5)}).objects[1], true);
-    return std::make_unique<PamsPolicy>(config, pams, std::move(targets), everywhere,
-                                        oblique_model(0), motion::LimitsConfig{});
+    return pams_tour(pams, std::move(targets), everywhere, oblique_model(0));
   }
 };
 

@@ -68,9 +68,10 @@ TEST(Saker, DoesNotFlyToASampleBesideWhereItLookedFrom) {
     return prediction;
   };
   PamsFlight flight(config, {target}, everywhere, alike);
-  const auto sample = std::ranges::find_if(flight.decide().candidates, [&](const Candidate& one) {
-    return std::abs(one.viewpoint.bearing - pi / 3) < 1e-6;
-  });
+  const auto sample =
+      std::ranges::find_if(flight.decide().candidates, [&](const ViewpointCandidate& one) {
+        return std::abs(one.viewpoint.bearing - pi / 3) < 1e-6;
+      });
   ASSERT_NE(sample, flight.plan.candidates.end());
   const Eigen::Vector3d out = sample->viewpoint.position - target.pose.translation();
   flight.body =

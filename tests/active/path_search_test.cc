@@ -1,4 +1,4 @@
-#include "saker/active/path_search.h"
+#include "saker/active/views/path_search.h"
 
 #include <gtest/gtest.h>
 
@@ -44,14 +44,14 @@ PathProblem random_problem(core::Rng& rng, int stops, int horizon) {
   PathProblem problem = problem_at(places, std::vector<double>(stops, 1.0), horizon);
   problem.objects.assign(2, Belief(noise(0.25), noise(0.003)));
   problem.drifted_m = {0, 0};
-  for (auto& sights : problem.stops) {
-    sights.clear();
+  for (auto& measurements : problem.stops) {
+    measurements.clear();
     for (int object = 0; object < 2; ++object) {
       Matrix4d root;
       for (double& x : root.reshaped()) x = 0.15 * rng.normal();
       const Covariance covariance = root * root.transpose() + 0.005 * Matrix4d::Identity();
       const int cell = static_cast<int>(8 * rng.uniform());
-      if (object == 0 || rng.uniform() < 0.3) sights.push_back({object, cell, {covariance}});
+      if (object == 0 || rng.uniform() < 0.3) measurements.push_back({object, cell, {covariance}});
     }
   }
   return problem;

@@ -1,4 +1,4 @@
-#include "saker/active/reachability.h"
+#include "saker/active/views/reachability.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "saker/active/region_samples.h"
+#include "saker/active/views/region_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ namespace {
 constexpr int kDirections = 24, kRings = 3;
 
 /// Rings of 9, 10 and 11 m around the origin.
-std::vector<Candidate> lattice() {
-  std::vector<Candidate> candidates(kDirections * kRings);
+std::vector<ViewpointCandidate> lattice() {
+  std::vector<ViewpointCandidate> candidates(kDirections * kRings);
   for (int i = 0; i < kDirections * kRings; ++i) {
     const double bearing = 2 * std::numbers::pi * (i / kRings) / kDirections;
     const double range = 9 + i % kRings;

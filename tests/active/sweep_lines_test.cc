@@ -1,4 +1,4 @@
-#include "saker/active/sweep_lines.h"
+#include "saker/active/discovery/sweep_lines.h"
 
 #include <gtest/gtest.h>
 

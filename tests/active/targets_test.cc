@@ -1,4 +1,4 @@
-#include "saker/active/targets.h"
+#include "saker/active/tour/targets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "saker/active/tour.h"
+#include "saker/active/tour/tour.h"
 
 #include <gtest/gtest.h>
 

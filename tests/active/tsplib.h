@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "saker/active/tour.h"
+#include "saker/active/tour/tour.h"
 
 /// Instances of TSPLIB (Reinelt, ORSA J. Computing 3, 1991): coordinates and the length of the
 /// shortest closed tour. Distances are rounded to whole numbers, as the library says (EUC_2D).

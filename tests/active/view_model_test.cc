@@ -1,4 +1,4 @@
-#include "saker/active/view_model.h"
+#include "saker/active/belief/view_model.h"
 
 #include <gtest/gtest.h>
 

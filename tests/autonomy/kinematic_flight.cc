@@ -110,7 +110,7 @@ void KinematicFlight::supervise() {
   input.setpoint = setpoint_;
   input.acks = std::exchange(acks_, {});
   input.planning = report_;
-  input.has_targets = !planning_.policy().idle();
+  input.has_targets = !planning_.active().idle();
   input.classified_share = 1;
   const Mission::Output output = supervisor_.step(std::move(input));
   orders_ = output.orders;

@@ -21,7 +21,7 @@ class KinematicFlight {
 
   [[nodiscard]] const Mission& mission() const { return supervisor_.mission(); }
   [[nodiscard]] const std::vector<active::Target>& targets() const {
-    return planning_.policy().targets();
+    return planning_.active().targets();
   }
 
   /// What the collision checker is to say of the committed trajectory; clear by default.

@@ -1,11 +1,9 @@
 /// One decision of PAMS, and its parts: the search over 30 samples at a horizon of 3 (all 24,360
 /// paths, and a beam), with the current target alone and with its neighbours, and the decision as a
 /// whole in a block of 40 m at 0.25 m. Aim: 100 ms on one thread. A tour of 1,000 stops: 1 s.
-#include "../active/made_flight.h"
-#include "../active/made_model.h"
+#include "../active/made_pams_flight.h"
 #include "../active/tsplib.h"
 #include "benchmark/benchmark.h"
-#include "saker/active/pams.h"
 #include "saker/core/rng.h"
 
 namespace saker::active {
@@ -23,10 +21,10 @@ PathProblem problem_of(int stops, int objects) {
   Eigen::MatrixXd places(stops, 2);
   for (double& x : places.reshaped()) x = 10 * rng.normal();
   for (int i = 0; i < stops; ++i) {
-    auto& sights = problem.stops.emplace_back();
+    auto& measurements = problem.stops.emplace_back();
     for (int object = 0; object < objects; ++object) {
       const double variance = 0.01 + 0.05 * rng.uniform();
-      sights.push_back({object, i, variance * Eigen::Matrix4d::Identity()});
+      measurements.push_back({object, i, variance * Eigen::Matrix4d::Identity()});
     }
   }
   problem.to_m = problem.to_s = places.rowwise().norm();
@@ -77,11 +75,11 @@ void decision(benchmark::State& state) {
   std::size_t candidates = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    PamsPolicy policy(config, pams, TargetList(config.targets, table, *input.map), made::everywhere,
-                      made::oblique_model(), motion::LimitsConfig{});
+    TargetTour targets = made::pams_tour(pams, TargetList(config.targets, table, *input.map),
+                                         made::everywhere, made::oblique_model());
     input.stamp += kNanosecondsPerSecond;
     state.ResumeTiming();
-    candidates = policy.plan(input, core::Budget::iterations(0)).candidates.size();
+    candidates = targets.plan(input, core::Budget::iterations(0)).candidates.size();
   }
   state.counters["lattice"] = static_cast<double>(candidates);
 }

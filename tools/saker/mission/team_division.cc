@@ -7,7 +7,7 @@
 #include <numeric>
 #include <span>
 
-#include "saker/active/tour.h"
+#include "saker/active/tour/tour.h"
 #include "saker/core/error.h"
 
 namespace saker::tools {
