@@ -36,9 +36,8 @@ TEST(TaskThreads, TasksStartInTheOrderInWhichTheyCame) {
 }
 
 TEST(TaskThreads, TwoTasksRunAtTheSameTime) {
-  std::promise<void> first, second;
+  std::promise<void> first, second, done;
   TaskThreads threads(2);
-  std::promise<void> done;
   threads.push([&] {
     first.set_value();
     second.get_future().wait();
