@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "saker/core/error.h"
@@ -81,6 +82,42 @@ TEST_F(FilesTest, NpyHasTheLayoutOfTheFormat) {
             std::string::npos);
   ASSERT_EQ(bytes.size(), header + 24);
   EXPECT_EQ(std::memcmp(bytes.data() + header, values.data(), 24), 0);
+}
+
+TEST_F(FilesTest, PiecesAreWrittenInTheirOrder) {
+  OutputFile out(folder_ / "f");
+  out.write("ab");
+  const std::vector<std::uint8_t> bytes = {0, 255, 10};
+  out.write(bytes);
+  out.write("");
+  out.write("c");
+  EXPECT_FALSE(fs::exists(folder_ / "f")) << "not yet";
+  out.finish();
+  EXPECT_EQ(read_file(folder_ / "f"), std::string("ab\0\xFF\nc", 6));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(FilesTest, AMegabyteIsReadBackTheSame) {
+  std::string bytes;
+  for (int i = 0; i < 1'000'000; ++i) bytes += static_cast<char>(i * 7919 >> 3);
+  write_file(folder_ / "f", bytes);
+  EXPECT_TRUE(read_file(folder_ / "f") == bytes);
+}
+
+TEST_F(FilesTest, AFolderIsNotOverwritten) {
+  fs::create_directories(folder_ / "taken" / "by");
+  const std::string taken = (folder_ / "taken").string();
+  EXPECT_EQ(message([&] { write_file(taken, "x"); }).find("cannot write " + taken), 0u);
+  EXPECT_TRUE(fs::is_directory(taken));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(FilesTest, NpyOfFloatsSaysSo) {
+  const std::vector<float> values = {1.5f, NAN};
+  write_npy(folder_ / "a.npy", values, 1, 2);
+  const std::string bytes = read_file(folder_ / "a.npy");
+  EXPECT_NE(bytes.find("'descr': '<f4'"), std::string::npos);
+  EXPECT_EQ(std::memcmp(bytes.data() + bytes.size() - 8, values.data(), 8), 0);
 }
 
 }  // namespace

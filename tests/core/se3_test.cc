@@ -78,5 +78,66 @@ TEST(Se3, YawIsTheHeadingOfTheXAxis) {
   EXPECT_NEAR(yaw(so3_exp({0, 0, -2})), -2, 1e-12);
 }
 
+TEST_P(Se3Test, TheOppositeTangentIsTheInverse) {
+  for (int i = 0; i < 20; ++i) {
+    const Vector6d tangent = random_tangent(rng_, GetParam());
+    const SE3 there_and_back = se3_exp(tangent) * se3_exp(-tangent);
+    EXPECT_LT((there_and_back.matrix() - SE3::Identity().matrix()).norm(), 1e-9);
+  }
+}
+
+TEST_P(Se3Test, HalfATangentTwiceIsTheWhole) {
+  for (int i = 0; i < 20; ++i) {
+    const Vector6d tangent = random_tangent(rng_, GetParam());
+    const SE3 half = se3_exp(0.5 * tangent);
+    EXPECT_LT(((half * half).matrix() - se3_exp(tangent).matrix()).norm(), 1e-9);
+  }
+}
+
+TEST_P(Se3Test, AdjointOfAProductIsTheProductOfAdjoints) {
+  const SE3 a = se3_exp(random_tangent(rng_, GetParam())), b = se3_exp(random_tangent(rng_, 1));
+  EXPECT_LT((se3_adjoint(a * b) - se3_adjoint(a) * se3_adjoint(b)).norm(), 1e-9);
+  EXPECT_LT((se3_adjoint(a.inverse()) - se3_adjoint(a).inverse()).norm(), 1e-9);
+}
+
+TEST(Se3, HatIsTheCrossProduct) {
+  const Eigen::Vector3d a(1, -2, 3), b(0.5, 4, -1);
+  EXPECT_LT((hat(a) * b - a.cross(b)).norm(), 1e-12);
+  EXPECT_TRUE(hat(a).transpose().isApprox(-hat(a)));
+}
+
+TEST(Se3, AQuarterOfACircleIsDrivenByItsArc) {
+  Vector6d tangent;
+  tangent << 0, 0, M_PI / 2, M_PI / 2, 0, 0;  // a radius of 1 m
+  const SE3 T = se3_exp(tangent);
+  EXPECT_LT((T.translation() - Eigen::Vector3d(1, 1, 0)).norm(), 1e-12);
+  EXPECT_NEAR(yaw(T.linear()), M_PI / 2, 1e-12);
+}
+
+TEST(Se3, LogTakesTheShorterWayRound) {
+  for (double angle = -7; angle <= 7; angle += 0.37) {
+    const double found = so3_log(so3_exp({0, 0, angle})).z();
+    EXPECT_NEAR(std::remainder(found - angle, 2 * M_PI), 0, 1e-9) << angle;
+    EXPECT_LE(std::abs(found), M_PI + 1e-9) << angle;
+  }
+}
+
+TEST(Se3, InterpolationAtQuartersIsEven) {
+  Rng rng(4);
+  const SE3 a = se3_exp(random_tangent(rng, 1)), b = se3_exp(random_tangent(rng, 2));
+  const Vector6d step = se3_log(interpolate(a, b, 0).inverse() * interpolate(a, b, 0.25));
+  for (const double ratio : {0.25, 0.5, 0.75}) {
+    const SE3 next = interpolate(a, b, ratio).inverse() * interpolate(a, b, ratio + 0.25);
+    EXPECT_LT((se3_log(next) - step).norm(), 1e-9) << ratio;
+  }
+}
+
+TEST(Se3, YawDoesNotFeelRollAndPitch) {
+  const Eigen::Matrix3d tilt = so3_exp({0, 0.3, 0}) * so3_exp({-0.4, 0, 0});
+  for (const double heading : {-2.0, 0.1, 3.0}) {
+    EXPECT_NEAR(yaw(so3_exp({0, 0, heading}) * tilt), heading, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace saker::core

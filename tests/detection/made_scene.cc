@@ -67,6 +67,22 @@ std::vector<Eigen::Vector3d> visible_cylinder(const Eigen::Vector3d& root,
   return result;
 }
 
+Beams ground_beams(const Eigen::Vector3d& sensor, const std::vector<MadeBox>& boxes, int beams,
+                   const std::vector<Eigen::Vector3d>& hits) {
+  core::Rng rng(6);
+  Window window;
+  window.sensors = {sensor};
+  for (int i = 0; i < beams; ++i) {
+    const Eigen::Vector3d ground(rng.uniform(-10, 30), rng.uniform(-20, 20), 0);
+    const auto hidden = [&](const MadeBox& box) { return hides(box, sensor, ground); };
+    if (std::ranges::none_of(boxes, hidden)) window.beams.push_back({ground.cast<float>()});
+  }
+  for (const Eigen::Vector3d& hit : hits) window.beams.push_back({hit.cast<float>()});
+  Beams made;
+  made.fill(window);
+  return made;
+}
+
 void SceneBuilder::add(const std::vector<Eigen::Vector3d>& more, std::uint8_t class_id,
                        float class_probability) {
   points.insert(points.end(), more.begin(), more.end());

@@ -27,6 +27,10 @@ std::vector<Eigen::Vector3d> visible_cylinder(const Eigen::Vector3d& root,
                                               double height, const Eigen::Vector3d& sensor,
                                               int points, double noise, core::Rng& rng);
 
+/// Beams from one place that meet the ground, but where a box hides it, and whatever else was hit.
+Beams ground_beams(const Eigen::Vector3d& sensor, const std::vector<MadeBox>& boxes, int beams,
+                   const std::vector<Eigen::Vector3d>& hits = {});
+
 /// Points in the world, with their class, to a scan.
 struct SceneBuilder {
   std::vector<Eigen::Vector3d> points;

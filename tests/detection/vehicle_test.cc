@@ -52,18 +52,9 @@ struct Scene {
 
   /// \param hits  that beams meet beside the ground
   [[nodiscard]] Beams beams(const std::vector<Eigen::Vector3d>& hits) const {
-    core::Rng rng(6);
-    Window window;
-    window.sensors = {sensor};
-    for (int i = 0; i < 20000; ++i) {
-      const Eigen::Vector3d ground(rng.uniform(-10, 30), rng.uniform(-20, 20), 0);
-      if (sees(ground) && !hides(box, sensor, ground))
-        window.beams.push_back({ground.cast<float>()});
-    }
-    for (const Eigen::Vector3d& hit : hits) window.beams.push_back({hit.cast<float>()});
-    Beams beams;
-    beams.fill(window);
-    return beams;
+    std::vector<MadeBox> boxes = others;
+    boxes.push_back(box);
+    return testing::ground_beams(sensor, boxes, 20000, hits);
   }
 
   [[nodiscard]] VehicleFit fit() const { return fitted_to(points()); }

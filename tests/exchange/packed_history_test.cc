@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
-#include "saker/core/rng.h"
-#include "saker/exchange/packed_covariance.h"
+#include "made_measurement.h"
 
 namespace saker::exchange {
 namespace {
@@ -14,55 +12,6 @@ namespace {
 using objects::Cuboid;
 using objects::Cylinder;
 using objects::Measurement;
-
-constexpr int kClasses = 5;
-
-Eigen::Vector3d some_vector(core::Rng& rng, double size) {
-  return {rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size)};
-}
-
-Eigen::MatrixXd some_covariance(core::Rng& rng, int rows) {
-  Eigen::MatrixXd A(rows, rows);
-  for (double& a : A.reshaped()) a = rng.normal();
-  const Eigen::MatrixXd mixed = A * A.transpose() + Eigen::MatrixXd::Identity(rows, rows);
-  Eigen::VectorXd sd(rows);
-  for (double& s : sd) s = std::exp2(rng.uniform(-8, 0));
-  const Eigen::VectorXd unit = mixed.diagonal().cwiseSqrt().cwiseInverse().cwiseProduct(sd);
-  return unit.asDiagonal() * mixed * unit.asDiagonal();
-}
-
-std::vector<double> some_probabilities(core::Rng& rng, objects::ClassId likely) {
-  std::vector<double> p(kClasses, 0.0);
-  p[likely] = rng.uniform(0.6, 1);
-  p[0] += 1 - p[likely];
-  return p;
-}
-
-Measurement some_measurement(core::Rng& rng, Time stamp, bool cuboid) {
-  Measurement m;
-  m.stamp = stamp;
-  m.class_id = cuboid ? 1 : 2;
-  m.class_probability = some_probabilities(rng, m.class_id);
-  m.points = rng.index(3000);
-  if (cuboid) {
-    Cuboid model;
-    model.pose.linear() = core::so3_exp({0.05, -0.03, rng.uniform(-3, 3)});
-    model.pose.translation() = some_vector(rng, 20);
-    model.size = {rng.uniform(3, 6), rng.uniform(1.5, 2.5), rng.uniform(1.3, 2)};
-    m.model = model;
-    m.front_log_odds = rng.uniform(-5, 5);
-    m.length_sd = rng.uniform(0.05, 0.5);
-    m.covariance = some_covariance(rng, 9);
-  } else {
-    const Eigen::Vector3d axis(rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), 1);
-    m.model = Cylinder{some_vector(rng, 20), axis.normalized(), rng.uniform(0.05, 0.4),
-                       rng.uniform(1, 8)};
-    m.reflectivity = rng.uniform();
-    m.view_cell = rng.index(500);
-    m.covariance = some_covariance(rng, 6);
-  }
-  return m;
-}
 
 /// A flight around: a keyframe a second.
 slam::History some_history(int entries, int measurements, std::uint64_t seed) {
@@ -256,67 +205,6 @@ TEST(PackedHistory, ChangedBytesNeverGiveWhatIsNotFinite) {
 /// correlations everywhere, as never occur.
 TEST(PackedHistory, TenMinutesFitInto200Kilobytes) {
   EXPECT_LT(packed(some_history(600, 4, 7), kClasses).size(), 200'000u);
-}
-
-Eigen::MatrixXd there_and_back(const Eigen::MatrixXd& covariance) {
-  Statistics writers, readers;
-  CodedWriter out(writers);
-  pack(covariance, out);
-  const std::string bytes = out.finish();
-  CodedReader in(bytes, readers);
-  const Eigen::MatrixXd back = unpacked_covariance(static_cast<int>(covariance.rows()), in);
-  EXPECT_TRUE(in.done());
-  return back;
-}
-
-TEST(PackedCovariance, StandardDeviationsAreRightToFivePercentAndTheMatrixIsPositiveDefinite) {
-  core::Rng rng(1);
-  for (int round = 0; round < 500; ++round) {
-    const int rows = rng.chance(0.5) ? 6 : 9;
-    const Eigen::MatrixXd covariance = some_covariance(rng, rows);
-    const Eigen::MatrixXd back = there_and_back(covariance);
-    EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(back).info(), Eigen::Success);
-    for (int i = 0; i < rows; ++i) {
-      EXPECT_NEAR(std::sqrt(back(i, i) / covariance(i, i)), 1, 0.045);
-    }
-  }
-}
-
-/// What a merged graph weighs: the squared length of an error in units of its sd.
-TEST(PackedCovariance, WeighsErrorsAsTheOriginalWithinAFifth) {
-  core::Rng rng(2);
-  double ratio = 0;
-  constexpr int kRounds = 500;
-  for (int round = 0; round < kRounds; ++round) {
-    const Eigen::MatrixXd covariance = some_covariance(rng, 6);
-    const Eigen::MatrixXd back = there_and_back(covariance);
-    ratio += (back.inverse() * covariance).trace() / 6 / kRounds;  // mean NEES a degree of freedom
-  }
-  EXPECT_NEAR(ratio, 1, 0.2);
-}
-
-/// Where sums of partial correlations do not hide it.
-TEST(PackedCovariance, TwoNumbersCorrelationIsRightToATwentieth) {
-  for (int percent = -99; percent <= 99; ++percent) {
-    const double correlation = 0.01 * percent;
-    const Eigen::Matrix2d back =
-        there_and_back((Eigen::Matrix2d() << 1, correlation, correlation, 1).finished());
-    EXPECT_NEAR(back(0, 1) / std::sqrt(back(0, 0) * back(1, 1)), correlation, 0.05);
-  }
-}
-
-TEST(PackedCovariance, AnyBytesGiveASymmetricFiniteMatrix) {
-  core::Rng rng(3);
-  for (int round = 0; round < 5000; ++round) {
-    std::string bytes(40, '\0');
-    for (char& byte : bytes) byte = static_cast<char>(rng.index(256));
-    Statistics statistics;
-    CodedReader in(bytes, statistics);
-    const Eigen::MatrixXd back = unpacked_covariance(9, in);
-    ASSERT_TRUE(back.allFinite());
-    ASSERT_TRUE(back.isApprox(back.transpose()));
-    ASSERT_GT(back.diagonal().minCoeff(), 0);
-  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "saker/lidar/made_scan.h"
+#include "lidar/made_scan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "saker/core/rng.h"
-#include "saker/objects/assignment.h"
-
 namespace saker::objects {
 namespace {
 
@@ -38,31 +35,6 @@ ClassComparison of(const std::vector<ClassComparison>& all, const std::string& n
 ErrorFigures figures(const ClassComparison& c, const std::string& quantity) {
   return *std::find_if(c.errors.begin(), c.errors.end(),
                        [&](const auto& e) { return e.quantity == quantity; });
-}
-
-TEST(Assignment, IsTheBestOfAllPermutations) {
-  core::Rng rng(4);
-  for (int trial = 0; trial < 30; ++trial) {
-    const Eigen::MatrixXd cost = Eigen::MatrixXd::NullaryExpr(5, 5, [&] { return rng.uniform(); });
-    const std::vector<int> column_of = assign(cost, 2);
-    double sum = 0, best = 1e9;
-    for (int i = 0; i < 5; ++i) sum += cost(i, column_of[static_cast<std::size_t>(i)]);
-    std::vector<int> order = {0, 1, 2, 3, 4};
-    do {
-      double other = 0;
-      for (int i = 0; i < 5; ++i) other += cost(i, order[static_cast<std::size_t>(i)]);
-      best = std::min(best, other);
-    } while (std::next_permutation(order.begin(), order.end()));
-    EXPECT_NEAR(sum, best, 1e-12);
-  }
-}
-
-TEST(Assignment, PairsAsManyAsTheGateAllows) {
-  Eigen::MatrixXd cost(2, 3);
-  cost << 0.1, 1.0, 9, 0.2, 9, 9;  // the nearest pair first would leave row 1 alone
-  EXPECT_EQ(assign(cost, 1.5), (std::vector<int>{1, 0}));
-  EXPECT_EQ(assign(cost, 0.15), (std::vector<int>{0, -1}));
-  EXPECT_EQ(assign(Eigen::MatrixXd(2, 0), 1), (std::vector<int>{-1, -1}));
 }
 
 TEST(Comparison, CountsFoundMissedInventedAndDuplicates) {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "saker/core/rng.h"
-#include "saker/lidar/made_scan.h"
+#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "saker/lidar/made_scan.h"
+#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "saker/core/config_folder.h"
 #include "saker/core/error.h"
-#include "saker/lidar/made_scan.h"
+#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

@@ -50,5 +50,32 @@ TEST(ViewTest, ACylinderHasNoAngleAndItsMiddleIsHalfWayUp) {
   EXPECT_NEAR(view.range, 6, 1e-12);
 }
 
+TEST(ViewTest, IsTheSameWhereverBothAreAndHoweverTheyAreTurned) {
+  const objects::Cuboid cuboid = cuboid_at(4, -2, 0.75, 0.6);
+  const Eigen::Vector3d eye(-3, 5, 4);
+  const View before = view_of(eye, cuboid);
+  for (const double turn : {0.4, 1.9, -2.8}) {
+    SE3 T = SE3::Identity();
+    T.translation() << 100, -50, 7;
+    T.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+    const View after = view_of(T * eye, objects::transformed(T, cuboid));
+    EXPECT_NEAR(after.range, before.range, 1e-9) << turn;
+    EXPECT_NEAR(after.angle, before.angle, 1e-9) << turn;
+    EXPECT_NEAR(after.elevation, before.elevation, 1e-9) << turn;
+  }
+}
+
+TEST(ViewTest, OfAVehicleTurnedRoundIsFromTheOtherSide) {
+  const double angle = view_of({3, 2, 2}, cuboid_at(0, 0, 0.75, 0)).angle;
+  const double turned = view_of({3, 2, 2}, cuboid_at(0, 0, 0.75, kPi)).angle;
+  EXPECT_NEAR(std::remainder(turned - angle - kPi, 2 * kPi), 0, 1e-12);
+}
+
+TEST(ViewTest, ACylinderOfUnknownHeightIsSeenAtItsRoot) {
+  objects::Cylinder cylinder;
+  cylinder.root << 0, 0, 1;
+  EXPECT_NEAR(view_of({3, 0, 4}, cylinder).elevation, kPi / 4, 1e-12);
+}
+
 }  // namespace
 }  // namespace saker::uncertainty

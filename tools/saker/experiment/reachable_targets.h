@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "saker/active/field_of_view.h"
+#include "saker/active/views/field_of_view.h"
 #include "saker/motion/geofence.h"
 #include "saker/objects/object_map.h"
 #include "saker/simulation/vehicle/collision.h"
