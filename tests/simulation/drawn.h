@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <map>
@@ -26,6 +28,22 @@ struct Sketch {
   Palette palette;
   StreetPalette street;
 };
+
+/// What draws one thing of flights' and missions' streets.
+using Adder = void (*)(World&, const Palette&, const SE3&, core::Rng&);
+
+/// `check` on several drawings of each kind: struct with `name` and what `draw` needs.
+template <class Kinds, class Draw, class Check>
+void for_each_drawing(const Kinds& kinds, std::uint64_t seeds, Draw draw, Check check) {
+  for (const auto& kind : kinds) {
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(seed));
+      Sketch s(seed);
+      draw(kind, s);
+      check(kind, s);
+    }
+  }
+}
 
 inline Eigen::AlignedBox3d box_of(const Mesh& mesh) {
   Eigen::AlignedBox3d box;

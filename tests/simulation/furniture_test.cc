@@ -7,8 +7,6 @@
 namespace saker::simulation {
 namespace {
 
-using Adder = void (*)(World&, const Palette&, const SE3&, core::Rng&);
-
 /// What stands in streets but is in no map: sizes from above, m, and labels.
 struct Kind {
   const char* name;
@@ -31,14 +29,10 @@ const std::vector<Kind>& kinds() {
 
 template <class Check>
 void for_each_thing(Check check) {
-  for (const Kind& kind : kinds()) {
-    for (std::uint64_t seed = 1; seed <= 15; ++seed) {
-      SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(seed));
-      Sketch s(seed);
-      kind.add(s.world, s.palette, SE3::Identity(), s.rng);
-      check(kind, s);
-    }
-  }
+  const auto draw = [](const Kind& kind, Sketch& s) {
+    kind.add(s.world, s.palette, SE3::Identity(), s.rng);
+  };
+  for_each_drawing(kinds(), 15, draw, check);
 }
 
 TEST(Furniture, StandsOnTheGround) {

@@ -3,16 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "drawn.h"
+#include "readings.h"
 #include "saker/simulation/vehicle/quadrotor.h"
 
 namespace saker::simulation {
 namespace {
-
-const ImuConfig kExact{.rate_hz = 100,
-                       .acceleration_noise = 0,
-                       .rotation_noise = 0,
-                       .acceleration_bias = 0,
-                       .rotation_bias = 0};
 
 template <class F>
 double slope(F f, double x, double h = 1e-5) {

@@ -2,16 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "readings.h"
 #include "saker/core/se3.h"
 
 namespace saker::simulation {
 namespace {
-
-const ImuConfig kExact{.rate_hz = 100,
-                       .acceleration_noise = 0,
-                       .rotation_noise = 0,
-                       .acceleration_bias = 0,
-                       .rotation_bias = 0};
 
 /// It turns about z at 2 rad/s: a unit 0.3 m ahead is pulled inwards by ω² r.
 TEST(InertialUnit, ItsPlaceOnTheBodyIsFelt) {

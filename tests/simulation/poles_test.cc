@@ -6,8 +6,6 @@
 namespace saker::simulation {
 namespace {
 
-using Adder = void (*)(World&, const Palette&, const SE3&, core::Rng&);
-
 /// The kinds that enter the truth, with the heights and radii in which they are sold.
 struct Kind {
   const char* name;
@@ -23,15 +21,13 @@ constexpr Kind kKinds[] = {{"lamp", add_lamp, 3.8, 9.5, 0.05, 0.13},
 /// `check` on a dozen poles of each kind, standing at (2, 3).
 template <class Check>
 void for_each_pole(Check check) {
-  for (const Kind& kind : kKinds) {
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(seed));
-      Sketch s(seed);
-      kind.add(s.world, s.palette, placed(2, 3, 0.5), s.rng);
-      ASSERT_EQ(s.world.objects.size(), 1U);
-      check(kind, s, std::get<objects::Cylinder>(s.world.objects[0].model));
-    }
-  }
+  const auto draw = [](const Kind& kind, Sketch& s) {
+    kind.add(s.world, s.palette, placed(2, 3, 0.5), s.rng);
+  };
+  for_each_drawing(kKinds, 12, draw, [&](const Kind& kind, const Sketch& s) {
+    ASSERT_EQ(s.world.objects.size(), 1U);
+    check(kind, s, std::get<objects::Cylinder>(s.world.objects[0].model));
+  });
 }
 
 TEST(Poles, EnterTheTruthAsWhatTheyAre) {

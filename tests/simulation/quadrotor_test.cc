@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "readings.h"
 #include "saker/core/error.h"
 #include "saker/simulation/vehicle/instruments.h"
 #include "saker/simulation/world/mesh.h"
@@ -9,7 +10,7 @@
 namespace saker::simulation {
 namespace {
 
-constexpr double kStep = 0.001;
+constexpr double kTick = 0.001;
 const Quadrotor::GroundHeights kFarBelow = {-1e3, -1e3, -1e3, -1e3};
 const Quadrotor::GroundHeights kPlain = {0, 0, 0, 0};
 const Eigen::Vector3d kStill = Eigen::Vector3d::Zero();
@@ -22,7 +23,7 @@ AirframeConfig dragless() {
 
 void run(Quadrotor& q, double seconds, const MotorThrusts& thrusts,
          const Quadrotor::GroundHeights& ground, const Eigen::Vector3d& wind = kStill) {
-  for (int i = 0; i < std::lround(seconds / kStep); ++i) q.step(kStep, thrusts, wind, ground);
+  for (int i = 0; i < std::lround(seconds / kTick); ++i) q.step(kTick, thrusts, wind, ground);
 }
 
 MotorThrusts hovering(const AirframeConfig& airframe) {
@@ -109,12 +110,7 @@ TEST(Quadrotor, TouchdownSpeedIsTheSpeedBeforeTheContact) {
 }
 
 TEST(Quadrotor, TheInertialUnitReadsGAtRestAndNothingInFreeFall) {
-  const ImuConfig exact{.rate_hz = 100,
-                        .acceleration_noise = 0,
-                        .rotation_noise = 0,
-                        .acceleration_bias = 0,
-                        .rotation_bias = 0};
-  InertialUnit imu(exact, {0.1, 0, 0}, Eigen::Matrix3d::Identity(), core::Rng(1));
+  InertialUnit imu(kExact, {0.1, 0, 0}, Eigen::Matrix3d::Identity(), core::Rng(1));
   AirframeConfig airframe = dragless();
   Quadrotor standing(airframe, SE3(Eigen::Translation3d(0, 0, airframe.leg_m)));
   run(standing, 2, MotorThrusts::Zero(), kPlain);

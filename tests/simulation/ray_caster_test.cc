@@ -89,22 +89,24 @@ double to_sphere(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, 
   return inside > 0 ? along - std::sqrt(inside) : NAN;
 }
 
-/// A sphere of 80 by 160 faces.
-Mesh sphere(double radius) {
+/// A sphere of radius 2 m about the origin, of 80 by 160 faces.
+World world_with_sphere() {
   constexpr int kRings = 80, kSides = 160;
-  Mesh mesh;
-  Pen pen(mesh);
+  constexpr double kRadius = 2;
+  World world;
+  world.add({kOtherObject, 0.3F, 0, 0, 0, 0});
+  Pen pen(world.mesh);
   const auto point = [&](int ring, int side) {
     const double up = M_PI * (ring / double{kRings} - 0.5), around = 2 * M_PI * side / kSides;
-    return Eigen::Vector3d(radius * std::cos(up) * std::cos(around),
-                           radius * std::cos(up) * std::sin(around), radius * std::sin(up));
+    return Eigen::Vector3d(kRadius * std::cos(up) * std::cos(around),
+                           kRadius * std::cos(up) * std::sin(around), kRadius * std::sin(up));
   };
   for (int ring = 0; ring < kRings; ++ring) {
     for (int side = 0; side < kSides; ++side)
       pen.quad(point(ring, side), point(ring, side + 1), point(ring + 1, side + 1),
                point(ring + 1, side), 0);
   }
-  return mesh;
+  return world;
 }
 
 Eigen::Vector3d any_direction(core::Rng& rng) {
@@ -112,9 +114,7 @@ Eigen::Vector3d any_direction(core::Rng& rng) {
 }
 
 TEST(RayCaster, RangesToASphereAreTheAnalyticOnes) {
-  World world;
-  world.add({kOtherObject, 0.3F, 0, 0, 0, 0});
-  world.mesh = sphere(2);
+  const World world = world_with_sphere();
   const RayCaster caster(world);
   core::Rng rng(4);
   int hits = 0;
@@ -133,9 +133,7 @@ TEST(RayCaster, RangesToASphereAreTheAnalyticOnes) {
 }
 
 TEST(RayCaster, CosinesOnASphereAreTheAnalyticOnes) {
-  World world;
-  world.add({kOtherObject, 0.3F, 0, 0, 0, 0});
-  world.mesh = sphere(2);
+  const World world = world_with_sphere();
   const RayCaster caster(world);
   core::Rng rng(6);
   for (int i = 0; i < 500; ++i) {
@@ -148,9 +146,7 @@ TEST(RayCaster, CosinesOnASphereAreTheAnalyticOnes) {
 }
 
 TEST(RayCaster, TheNearestPointOfASphereIsAsFarAsItsSurface) {
-  World world;
-  world.add({kOtherObject, 0.3F, 0, 0, 0, 0});
-  world.mesh = sphere(2);
+  const World world = world_with_sphere();
   const RayCaster caster(world);
   core::Rng rng(5);
   for (int i = 0; i < 500; ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "saker/simulation/sensor/sensor_config.h"
 #include "saker/simulation/vehicle/quadrotor.h"
 #include "saker/simulation/vehicle/vehicle_estimator.h"
 
@@ -9,6 +10,13 @@ namespace saker::simulation {
 inline constexpr double kStep = 0.002;
 inline constexpr Time kBegin = kNanosecondsPerSecond;
 inline const Eigen::Vector3d kRest(0, 0, kStandardGravity);  ///< what is read standing still
+
+/// A unit without noise and bias.
+inline const ImuConfig kExact{.rate_hz = 100,
+                              .acceleration_noise = 0,
+                              .rotation_noise = 0,
+                              .acceleration_bias = 0,
+                              .rotation_bias = 0};
 
 inline int steps_of(double seconds) { return static_cast<int>(std::lround(seconds / kStep)); }
 inline Time time_of(int step) { return kBegin + step * from_seconds(kStep); }

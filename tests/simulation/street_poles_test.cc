@@ -23,14 +23,10 @@ constexpr Kind kKinds[] = {{"armed lamp", add_armed_lamp, 3.9, 12.2},
 
 template <class Check>
 void for_each_pole(Check check) {
-  for (const Kind& kind : kKinds) {
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(seed));
-      Sketch s(seed);
-      kind.add(s.world, s.street, SE3::Identity(), s.rng);
-      check(kind, s);
-    }
-  }
+  const auto draw = [](const Kind& kind, Sketch& s) {
+    kind.add(s.world, s.street, SE3::Identity(), s.rng);
+  };
+  for_each_drawing(kKinds, 12, draw, check);
 }
 
 TEST(StreetPoles, AreAsHighAsSuchPolesAre) {
