@@ -123,13 +123,12 @@ inline int open_edges(const Mesh& mesh) {
   return open;
 }
 
-/// Whether each vertex has a counterpart at −y.
-inline bool is_mirrored(const Mesh& mesh) {
-  constexpr double kStep = 1e-3;
+/// Whether each vertex has a counterpart at −y, to about `step`.
+inline bool is_mirrored(const Mesh& mesh, double step = 1e-3) {
   std::set<GridPoint> there;
-  for (const Eigen::Vector3f& p : mesh.vertices) there.insert(on_grid(p, kStep));
+  for (const Eigen::Vector3f& p : mesh.vertices) there.insert(on_grid(p, step));
   for (const Eigen::Vector3f& p : mesh.vertices) {
-    const GridPoint at = on_grid({p.x(), -p.y(), p.z()}, kStep);
+    const GridPoint at = on_grid({p.x(), -p.y(), p.z()}, step);
     bool found = false;
     for (long i = 0; i < 27 && !found; ++i)  // rounded to a neighbour
       found = there.contains({at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1, at[2] + i / 9 - 1});

@@ -35,7 +35,7 @@ TEST(AddTree, TheTrunkIsAsThickAtBreastHeightAsTheTruthSays) {
     const RayCaster caster(g.world);
     for (const Eigen::Vector3d& from : {Eigen::Vector3d(5, 0, 1.2), Eigen::Vector3d(0, 5, 1.2)}) {
       const Eigen::Vector3d towards = Eigen::Vector3d(0, 0, 1.2) - from;
-      EXPECT_NEAR(place_of(shoot(caster, from, towards)).head<2>().norm(), radius, 0.06 * radius);
+      EXPECT_NEAR(place_of(shoot(caster, from, towards)).head<2>().norm(), radius, 0.08 * radius);
     }
   }
 }
@@ -234,7 +234,7 @@ TEST(Flora, AConiferIsWideBelowAndNarrowAtItsTop) {
   }
 }
 
-TEST(Flora, SomeBeamsPassACrownAndSomeDoNot) {
+TEST(Flora, ACrownStopsMoreThanAFifthOfTheBeamsThroughItsMiddle) {
   const Garden g;
   for (const std::size_t i : g.flora.crowns) {
     World alone;

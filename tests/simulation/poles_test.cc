@@ -61,11 +61,11 @@ TEST(Poles, LeanByDegreesAtMost) {
   });
 }
 
-/// A base around the foot of some lamps is higher than breast height nowhere.
+/// Below the plates of signs, above the base of lamps.
 TEST(Poles, AtBreastHeightTheShaftIsWhatTheTruthSays) {
-  for_each_pole([](const Kind&, const Sketch& s, const objects::Cylinder& pole) {
+  for_each_pole([](const Kind& kind, const Sketch& s, const objects::Cylinder& pole) {
     const RayCaster caster(s.world);
-    const Eigen::Vector3d at = pole.root + 1.3 * pole.axis;
+    const Eigen::Vector3d at = pole.root + (kind.add == add_sign ? 1.0 : 1.3) * pole.axis;
     for (int i = 0; i < 8; ++i) {
       const double angle = M_PI * i / 4;
       const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0);

@@ -192,7 +192,7 @@ TEST(SensorModel, BeamsFarAsideLookWhereTheirColumnWillBe) {
   EXPECT_NEAR(apart, said, 0.3);
 }
 
-TEST(SensorModel, RangesComeFromWhatASheetSaysOfTenPercent) {
+TEST(SensorModel, FourBeamsOfFiveAnswerAtTheSheetsRangeOfTenPercent) {
   const ReceiverConfig& qt = sensor_model(SensorChoice::qt64).receiver;
   EXPECT_NEAR(1 - std::exp(-0.1 / (20.0 * 20 * qt.sensitivity)), 1 - std::exp(-1.6), 1e-9);
 }

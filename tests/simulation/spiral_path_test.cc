@@ -119,13 +119,21 @@ TEST(SpiralPath, NeitherPlaceNorVelocityNorAccelerationJumps) {
   }
 }
 
+/// How far beyond the car's outline the ellipse through p reaches.
+double gap_of(const Eigen::Vector2d& p) {
+  double low = 0, high = 50;
+  while (high - low > 1e-6) {
+    const double gap = 0.5 * (low + high);
+    const Eigen::Vector2d axes = kCar.array() + gap;
+    (p.cwiseQuotient(axes).norm() > 1 ? low : high) = gap;
+  }
+  return low;
+}
+
 TEST(SpiralPath, TheGapToTheObjectGrowsOrShrinksAllTheWay) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const SpiralPath path = path_of(seed);
-    const auto range = [&](double t) {
-      const Eigen::Vector3d p = seen_from_car(path, t);
-      return (p.head<2>().cwiseQuotient(kCar)).norm();  // the same on an ellipse about it
-    };
+    const auto range = [&](double t) { return gap_of(seen_from_car(path, t).head<2>()); };
     const double way = range(24) > range(0) ? 1 : -1;
     EXPECT_GT(way * (range(18) - range(6)), 0) << seed;
     EXPECT_GT(way * (range(24) - range(12)), 0) << seed;

@@ -46,7 +46,7 @@ TEST(VehicleShape, ScreenRoofAndBootFollowEachOtherFromTheFrontEndBackwards) {
   for_each_car([](const VehicleShape& s) {
     EXPECT_GT(s.screen_base, 0.35);
     EXPECT_GT(s.roof_front, s.screen_base + 0.2);
-    EXPECT_GT(s.roof_rear, s.roof_front + 0.5);
+    EXPECT_GT(s.roof_rear, s.roof_front + 0.3);
     EXPECT_GT(s.rear_base, s.roof_rear);
     EXPECT_LE(s.rear_base, s.length);
   });
@@ -66,7 +66,7 @@ TEST(VehicleShape, BothAxlesAreUnderTheBody) {
     EXPECT_GT(s.front_axle, s.wheel_radius);
     EXPECT_GT(s.rear_axle, s.wheel_radius);
     const double wheelbase = s.length - s.front_axle - s.rear_axle;
-    EXPECT_GT(wheelbase, 2.0);
+    EXPECT_GT(wheelbase, 1.9);
     EXPECT_LT(wheelbase, 3.8);
   });
 }
