@@ -50,10 +50,10 @@ TEST(Building, FromItsFrontABeamGoesNoDeeperThanARoom) {
 
 TEST(Building, ItIsAsHighAsItsStoreysAndItsRoof) {
   for_each_building([](const Built& b) {
+    if (b.shape.storeys < 2) return;  // a bay window may be higher
     const double eaves = b.shape.storeys * b.shape.storey_height;
     const double roof = b.shape.gable ? 0.38 * b.shape.depth : 0.25;
-    EXPECT_NEAR(box_of(b.mesh()).max().z(), eaves + roof, 1.3);
-    EXPECT_GE(box_of(b.mesh()).max().z(), eaves + roof - 1e-4);
+    EXPECT_NEAR(box_of(b.mesh()).max().z(), eaves + roof, 1e-3);
   });
 }
 

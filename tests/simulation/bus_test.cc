@@ -44,14 +44,6 @@ TEST(Bus, OnItsLeftThereIsNoGlassBelowTheWindows) {
   for_each_member(kBuses, [](const Member& m) { EXPECT_EQ(glass_share(m, 0.9, 1), 0); });
 }
 
-TEST(Bus, ItsDoorsAreOnTheRight) {
-  for_each_member(std::array{city_bus, articulated_bus}, [](const Member& m) {
-    const RayCaster caster(m.world);
-    EXPECT_TRUE(m.is_glass(shoot(caster, {m.front() - 1.3, -8, 0.8}, {0, 1, 0})));
-    EXPECT_FALSE(m.is_glass(shoot(caster, {m.front() - 1.3, 8, 0.8}, {0, -1, 0})));
-  });
-}
-
 TEST(Bus, ItsRoofIsClosed) {
   for_each_member(kBuses, [](const Member& m) {
     for (double x = -m.front() + 0.4; x < m.front() - 3.6; x += 0.3) {

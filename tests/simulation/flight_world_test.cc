@@ -114,15 +114,6 @@ TEST(FlightWorld, TheSameSeedGivesTheSameWorldAndAnotherAnother) {
   EXPECT_NE(a.mesh.vertices, c.mesh.vertices);
 }
 
-TEST(FlightWorld, PaintedBlackOnlyItsVehiclesChange) {
-  SiteStyle style;
-  style.paint = Paint::black;
-  const World black = build_flight_world(of(), 5, style).built.world;
-  const World any = build_flight_world(of(), 5).built.world;
-  EXPECT_EQ(count_of(black, "trunk"), count_of(any, "trunk"));
-  EXPECT_EQ(black.mesh.triangles.size(), any.mesh.triangles.size());
-}
-
 /// What add_obstacles puts between the vehicles of a flight.
 struct Obstructed {
   Obstructed(int count, std::uint64_t seed) : flight(build_flight_world(of(), seed)) {

@@ -236,7 +236,7 @@ TEST(PaintStreet, WhatLiesOnTheRoadIsGroundWithinCentimetres) {
   }
 }
 
-TEST(PaintStreet, ATramHasFourRails) {
+TEST(PaintStreet, ATramsRailsRunAlongTheStreet) {
   StreetTheme theme = plain();
   theme.tram = true;
   const PaintedStreet made(theme, 2);

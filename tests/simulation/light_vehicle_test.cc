@@ -23,7 +23,7 @@ TEST(LightVehicle, FillsItsLengthAndHeight) {
 TEST(LightVehicle, ItsBonnetIsLowerThanItsRoof) {
   for_each_member(kLight, [](const Member& m) {
     EXPECT_LT(m.top_at(m.front() - 0.25), 0.75 * m.shape.height);
-    EXPECT_GT(m.top_at(m.front() - 0.48 * m.shape.length), 0.93 * m.shape.height);
+    EXPECT_GT(m.top_at(m.front() - 0.5 * m.shape.length), 0.93 * m.shape.height);
   });
 }
 
@@ -31,11 +31,11 @@ TEST(LightVehicle, OfCarsOnlySedansAndCoupesHaveABoot) {
   for_each_member(kLight, [](const Member& m) {
     if (m.shape.kind == pickup_midsize || m.shape.kind == pickup_fullsize) return;
     const bool boot = m.shape.kind == sedan;
-    const double rear = m.top_at(-m.front() + 0.3) / m.shape.height;
+    const double rear = m.top_at(-m.front() + 0.45) / m.shape.height;
     if (boot) {
       EXPECT_LT(rear, 0.8);
     } else if (m.shape.kind != coupe) {
-      EXPECT_GT(rear, 0.78);
+      EXPECT_GT(rear, 0.83);
     }
   });
 }

@@ -8,14 +8,13 @@ namespace saker::simulation {
 /// One member of the fleet about the origin.
 struct Member : Sketch {
   Member(FleetKind kind, std::uint64_t seed) : Sketch(seed), shape(random_shape(kind, rng)) {
+    constexpr std::size_t kPaintAndCover = 2;  // come before it, see make_parts()
+    glass = static_cast<MaterialId>(world.materials.size() + kPaintAndCover);
     add_fleet_vehicle(world, palette, shape, SE3::Identity(), false, rng);
   }
 
   [[nodiscard]] double front() const { return shape.length / 2; }
-  [[nodiscard]] bool is_glass(const Shot& shot) const {
-    return shot.hit && world.materials[shot.material].gloss > 0.39F &&
-           world.materials[shot.material].reflectivity < 0.151F;
-  }
+  [[nodiscard]] bool is_glass(const Shot& shot) const { return shot.hit && shot.material == glass; }
   /// Height of what is uppermost at x and y; NaN where nothing is.
   [[nodiscard]] double top_at(double x, double y = 0) const {
     const RayCaster caster(world);
@@ -34,6 +33,7 @@ struct Member : Sketch {
   }
 
   FleetShape shape;
+  MaterialId glass = 0;
 };
 
 /// `check` on several members of each of the kinds.

@@ -63,7 +63,7 @@ TEST(Site, NoRandomRectanglesOverlap) {
     if (!made.site.claim(s, d, yaw, 2.3, 0.9)) continue;
     objects::Cuboid cuboid;
     cuboid.pose = placed(s, d, 0, yaw);
-    cuboid.size = {4.0, 1.6, 1};  // the discs leave the corners free
+    cuboid.size = {3.6, 1.3, 1};  // the discs leave the corners free
     for (const objects::Cuboid& other : taken) EXPECT_FALSE(overlap(cuboid, other));
     taken.push_back(cuboid);
   }

@@ -55,7 +55,7 @@ TEST(StreetFurniture, SmallThingsAreLessThanTwoMetresHigh) {
 TEST(StreetFurniture, CarSizedThingsAreSeenBesideACar) {
   for_each_thing(any_car_sized_thing, [](const Furnishing&, const Sketch& s) {
     EXPECT_GT(box_of(s.mesh()).sizes().head<2>().maxCoeff(), 1.1);
-    EXPECT_GT(box_of(s.mesh()).max().z(), 0.3);
+    EXPECT_GT(box_of(s.mesh()).max().z(), 0.15);
     EXPECT_LT(box_of(s.mesh()).max().z(), 4);
   });
 }
