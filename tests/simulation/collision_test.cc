@@ -100,5 +100,88 @@ TEST(Triangle, NoPointOfItIsNearerThanTheNearest) {
   }
 }
 
+TEST(GroundMaterials, AreWhatOneLandsOn) {
+  World world;
+  for (const std::uint16_t label :
+       {kRoad, kParking, kSidewalk, kOtherGround, kLaneMarking, kTerrain, kCar, kBuilding, kFence,
+        kVegetation, kTrunk, kPole, kPerson})
+    world.add({label, 0.3F, 0, 0, 0, 0});
+  const std::vector<bool> ground = ground_materials(world);
+  ASSERT_EQ(ground.size(), 13U);
+  for (std::size_t i = 0; i < ground.size(); ++i) EXPECT_EQ(ground[i], i < 6) << i;
+}
+
+/// Random boxes: the clearance is the analytic distance to the nearest of them.
+TEST(CollisionMonitor, TheLeastClearanceOfAFlightIsTheAnalyticOne) {
+  core::Rng rng(21);
+  for (int flight = 0; flight < 30; ++flight) {
+    World world;
+    const MaterialId solid = world.add(kSolid);
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Vector3d low(rng.uniform(-8, 8), rng.uniform(-8, 8), rng.uniform(-8, 8));
+      const Eigen::Vector3d size(rng.uniform(0.2, 2), rng.uniform(0.2, 2), rng.uniform(0.2, 2));
+      boxes.emplace_back(low, low + size);
+      Pen(world.mesh).box(low, low + size, solid);
+    }
+    const RayCaster caster(world);
+    CollisionMonitor contacts(caster, world, 0.3);
+    double least = CollisionMonitor::kReach;
+    for (int i = 0; i < 10; ++i) {
+      const Eigen::Vector3d at(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
+      double distance = 100;
+      for (const auto& box : boxes) distance = std::min(distance, box.exteriorDistance(at));
+      if (distance < 0.5) continue;  // within a box the surface counts
+      contacts.check(at);
+      least = std::min(least, distance - 0.3);
+    }
+    if (least < CollisionMonitor::kReach) {
+      EXPECT_NEAR(contacts.min_clearance(), least, 1e-4);
+    }
+    EXPECT_EQ(contacts.collisions(), 0);
+  }
+}
+
+TEST(CollisionMonitor, ALargerSphereComesNearer) {
+  const World world = walled();
+  const RayCaster caster(world);
+  for (const double radius : {0.2, 0.4, 1.0}) {
+    CollisionMonitor contacts(caster, world, radius);
+    contacts.check({2, 0, 2});
+    EXPECT_NEAR(contacts.min_clearance(), 3 - radius, 1e-5);
+  }
+}
+
+TEST(CollisionMonitor, TouchingLastsUntilThereAreTenCentimetres) {
+  const World world = walled();
+  const RayCaster caster(world);
+  CollisionMonitor contacts(caster, world, 0.4);
+  contacts.check({4.7, 0, 2});
+  EXPECT_TRUE(contacts.touching());
+  contacts.check({4.55, 0, 2});  // 5 cm
+  EXPECT_TRUE(contacts.touching());
+  contacts.check({4.45, 0, 2});  // 15 cm
+  EXPECT_FALSE(contacts.touching());
+}
+
+TEST(Triangle, APointAboveItIsNearestToItsFoot) {
+  const Eigen::Vector3f a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  const Eigen::Vector3f foot = closest_on_triangle({1, 1, 7}, a, b, c);
+  EXPECT_LT((foot - Eigen::Vector3f(1, 1, 0)).norm(), 1e-6F);
+}
+
+TEST(Triangle, APointBeyondACornerIsNearestToTheCorner) {
+  const Eigen::Vector3f a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_EQ(closest_on_triangle({-1, -1, 0}, a, b, c), a);
+  EXPECT_EQ(closest_on_triangle({9, -1, 0}, a, b, c), b);
+  EXPECT_EQ(closest_on_triangle({-1, 9, 0}, a, b, c), c);
+}
+
+TEST(Triangle, APointBesideAnEdgeIsNearestToTheEdge) {
+  const Eigen::Vector3f a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_LT((closest_on_triangle({2, -3, 0}, a, b, c) - Eigen::Vector3f(2, 0, 0)).norm(), 1e-6F);
+  EXPECT_LT((closest_on_triangle({5, 5, 0}, a, b, c) - Eigen::Vector3f(2, 2, 0)).norm(), 1e-6F);
+}
+
 }  // namespace
 }  // namespace saker::simulation

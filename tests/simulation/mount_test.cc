@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 namespace saker::simulation {
@@ -36,6 +37,90 @@ TEST(Mount, ARayMeetsTheNearestBoxOfTheBody) {
   EXPECT_NEAR(distance_to_body(body, {0, 0, 0.5}, Eigen::Vector3d::UnitX()), 2, 1e-9);
   EXPECT_NEAR(distance_to_body(body, {0, 0, 2}, Eigen::Vector3d::UnitX()), 5, 1e-9);
   EXPECT_FALSE(std::isfinite(distance_to_body(body, {0, 0, 2}, -Eigen::Vector3d::UnitX())));
+}
+
+TEST(Mount, ThePoseInTheMiddleIsThatOfTheMountedSensor) {
+  Mount mount;
+  mount.T_world_vehicle = placed(5, 6, 7, 0.4);
+  mount.T_vehicle_lidar = placed(0, 0, 2, 0.1);
+  mount.twist << 0.1, 0.2, 0.3, 4, 5, 6;
+  EXPECT_TRUE(mount.pose(0).isApprox(mount.T_world_vehicle * mount.T_vehicle_lidar, 1e-12));
+}
+
+TEST(Mount, SpeedIsThatOfItsTranslation) {
+  Mount mount;
+  mount.twist << 9, 9, 9, 3, 0, 4;
+  EXPECT_DOUBLE_EQ(mount.speed_mps(), 5);
+}
+
+/// `check` on many carriers on one street.
+template <class Check>
+void for_each_mount(Check check) {
+  const BuiltWorld built = build_world(WorldKind::street, 3);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    core::Rng rng(seed);
+    SCOPED_TRACE(seed);
+    check(built, any_mount(built, rng));
+  }
+}
+
+TEST(Mount, StandsOnAFreePlaceOfTheWorld) {
+  for_each_mount([](const BuiltWorld& built, const Mount& mount) {
+    const Eigen::Vector3d p = mount.T_world_vehicle.translation();
+    double nearest = 1e9;
+    for (const Eigen::Vector2d& place : built.free_places)
+      nearest = std::min(nearest, (built.terrain.point(place.x(), place.y()) - p).norm());
+    EXPECT_LT(nearest, 1e-6);
+  });
+}
+
+TEST(Mount, NoSensorLeansByMoreThanTwentyDegrees) {
+  for_each_mount([](const BuiltWorld&, const Mount& mount) {
+    const double roll_pitch = std::acos(mount.T_vehicle_lidar.linear()(2, 2));
+    EXPECT_LT(roll_pitch, 0.51);
+  });
+}
+
+TEST(Mount, ManyScansAreTakenStanding) {
+  int standing = 0;
+  for_each_mount([&](const BuiltWorld&, const Mount& mount) {
+    standing += mount.twist.norm() == 0;
+    EXPECT_EQ(mount.twist.norm() == 0, mount.speed_mps() == 0);
+  });
+  EXPECT_NEAR(standing / 300.0, 0.38, 0.08);
+}
+
+TEST(Mount, OnlyAircraftFlySidewaysOrUp) {
+  for_each_mount([](const BuiltWorld&, const Mount& mount) {
+    if (mount.kind != MountKind::air) {
+      EXPECT_EQ(mount.twist[4], 0);
+      EXPECT_EQ(mount.twist[5], 0);
+      EXPECT_GE(mount.twist[3], 0);
+    }
+  });
+}
+
+TEST(Mount, NoCarrierReachesAroundItsSensor) {
+  for_each_mount([](const BuiltWorld&, const Mount& mount) {
+    for (const BodyBox& box : mount.body) {
+      const Eigen::AlignedBox3d body(box.low, box.high);
+      EXPECT_FALSE(body.contains(Eigen::Vector3d(0, 0, mount.height_m))) << name_of(mount.kind);
+    }
+  });
+}
+
+TEST(Mount, ACarsSensorSeesTheGroundBesideItsRoof) {
+  for_each_mount([](const BuiltWorld&, const Mount& mount) {
+    if (mount.kind != MountKind::car) return;
+    const Eigen::Vector3d from(0, 0, mount.height_m);
+    EXPECT_TRUE(std::isfinite(distance_to_body(mount.body, from, {0.2, 0.01, -1})));
+    EXPECT_FALSE(std::isfinite(distance_to_body(mount.body, from, {0.01, 1, -0.1})));
+    EXPECT_FALSE(std::isfinite(distance_to_body(mount.body, from, {1, 0.01, 0.05})));
+  });
+}
+
+TEST(DistanceToBody, WithoutABodyIsInfinite) {
+  EXPECT_FALSE(std::isfinite(distance_to_body({}, Eigen::Vector3d::Zero(), {1, 0, 0})));
 }
 
 }  // namespace

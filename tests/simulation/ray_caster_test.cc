@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "drawn.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -78,6 +80,160 @@ TEST(RayCaster, AMoverIsMetWhereItWasMovedTo) {
   caster.cast({&shot, 1}, 100);
   EXPECT_NEAR(shot.distance, 9, 1e-4);
   EXPECT_EQ(shot.object, 7);
+}
+
+/// Distance along a ray to a sphere about the origin that is seen from outside; NaN where none is.
+double to_sphere(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double radius) {
+  const double along = -from.dot(direction);
+  const double inside = radius * radius - (from.squaredNorm() - along * along);
+  return inside > 0 ? along - std::sqrt(inside) : NAN;
+}
+
+/// A sphere of radius 2 m about the origin, of 80 by 160 faces.
+World world_with_sphere() {
+  constexpr int kRings = 80, kSides = 160;
+  constexpr double kRadius = 2;
+  World world;
+  world.add({kOtherObject, 0.3F, 0, 0, 0, 0});
+  Pen pen(world.mesh);
+  const auto point = [&](int ring, int side) {
+    const double up = M_PI * (ring / double{kRings} - 0.5), around = 2 * M_PI * side / kSides;
+    return Eigen::Vector3d(kRadius * std::cos(up) * std::cos(around),
+                           kRadius * std::cos(up) * std::sin(around), kRadius * std::sin(up));
+  };
+  for (int ring = 0; ring < kRings; ++ring) {
+    for (int side = 0; side < kSides; ++side)
+      pen.quad(point(ring, side), point(ring, side + 1), point(ring + 1, side + 1),
+               point(ring + 1, side), 0);
+  }
+  return world;
+}
+
+Eigen::Vector3d any_direction(core::Rng& rng) {
+  return Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
+}
+
+TEST(RayCaster, RangesToASphereAreTheAnalyticOnes) {
+  const World world = world_with_sphere();
+  const RayCaster caster(world);
+  core::Rng rng(4);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d from = 8 * any_direction(rng);
+    const Eigen::Vector3d aim = 1.9 * rng.uniform() * any_direction(rng);
+    const Eigen::Vector3d direction = (aim - from).normalized();
+    const double expected = to_sphere(from, direction, 2);
+    const Shot shot = shoot(caster, from, direction);
+    ASSERT_TRUE(shot.hit);
+    if (std::abs(shot.cosine) < 0.3) continue;  // the facets show at grazing angles
+    EXPECT_NEAR(shot.distance, expected, 0.02);
+    ++hits;
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+TEST(RayCaster, CosinesOnASphereAreTheAnalyticOnes) {
+  const World world = world_with_sphere();
+  const RayCaster caster(world);
+  core::Rng rng(6);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d from = 8 * any_direction(rng);
+    const Shot shot = shoot(caster, from, 1.5 * any_direction(rng) - from);
+    ASSERT_TRUE(shot.hit);
+    const Eigen::Vector3d normal = place_of(shot).normalized();
+    EXPECT_NEAR(shot.cosine, std::abs(normal.dot(shot.direction.cast<double>())), 0.04);
+  }
+}
+
+TEST(RayCaster, TheNearestPointOfASphereIsAsFarAsItsSurface) {
+  const World world = world_with_sphere();
+  const RayCaster caster(world);
+  core::Rng rng(5);
+  for (int i = 0; i < 500; ++i) {
+    const double away = rng.uniform(0.1, 6);
+    const Eigen::Vector3d from = away * any_direction(rng);
+    const auto near = caster.nearest(from.cast<float>(), 10, {false});
+    ASSERT_TRUE(near.has_value());
+    EXPECT_NEAR(near->distance, std::abs(away - 2), 0.01);
+    EXPECT_NEAR((near->point - from.cast<float>()).norm(), near->distance, 1e-3);
+  }
+}
+
+TEST(RayCaster, NothingIsNearerThanTheReach) {
+  const World world = world_with_box();
+  const RayCaster caster(world);
+  EXPECT_FALSE(caster.nearest({0, 0, 0}, 8.9F, {false}).has_value());
+  EXPECT_TRUE(caster.nearest({0, 0, 0}, 9.1F, {false}).has_value());
+}
+
+TEST(RayCaster, WhatIsIgnoredIsNotNear) {
+  World world = world_with_box();
+  const MaterialId other = world.add({kTerrain, 0.4F, 0, 0, 0, 0});
+  Pen(world.mesh).box({2, -1, -1}, {3, 1, 1}, other);
+  const RayCaster caster(world);
+  EXPECT_EQ(caster.nearest({0, 0, 0}, 20, {false, false})->material, other);
+  EXPECT_EQ(caster.nearest({0, 0, 0}, 20, {false, true})->material, 0);
+}
+
+TEST(RayCaster, WhatIsNearerThanNearIsPassed) {
+  const World world = world_with_box();
+  const RayCaster caster(world);
+  Shot shot = shot_along({1, 0, 0});
+  shot.near = 9.5F;
+  caster.cast({&shot, 1}, 100);
+  ASSERT_TRUE(shot.hit);
+  EXPECT_NEAR(shot.distance, 11, 1e-4);  // the far face
+}
+
+TEST(RayCaster, BothFacesOfATriangleAreMet) {
+  World world;
+  world.add({kOtherObject, 0.3F, 0, 0, 0, 0});
+  Pen(world.mesh).quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0);
+  const RayCaster caster(world);
+  for (const double side : {-1.0, 1.0}) {
+    const Shot shot = shoot(caster, {4 * side, 0.2, 0.1}, {-side, 0, 0});
+    ASSERT_TRUE(shot.hit);
+    EXPECT_NEAR(shot.distance, 4, 1e-5);
+    EXPECT_NEAR(shot.cosine, 1, 1e-5);
+  }
+}
+
+/// Moving the world and the rays by the same motion changes no range.
+TEST(RayCaster, RangesDoNotDependOnWhereTheWorldIs) {
+  core::Rng rng(12);
+  World here, there;
+  for (World* world : {&here, &there}) world->add({kOtherObject, 0.3F, 0, 0, 0, 0});
+  const SE3 T = placed(3, -7, 2, 1.2);
+  Pen(here.mesh).tube({{0, 0, -1}, {0.5, 0, 1}, {0, 0.5, 2}}, {0.8, 0.5, 0.2}, 9, 0);
+  Pen(there.mesh, T).tube({{0, 0, -1}, {0.5, 0, 1}, {0, 0.5, 2}}, {0.8, 0.5, 0.2}, 9, 0);
+  const RayCaster a(here), b(there);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d from = 5 * any_direction(rng);
+    const Eigen::Vector3d direction = (0.4 * any_direction(rng) - from).normalized();
+    const Shot first = shoot(a, from, direction),
+               second = shoot(b, T * from, T.linear() * direction);
+    ASSERT_EQ(first.hit, second.hit);
+    if (first.hit && first.cosine > 0.2F) {
+      EXPECT_NEAR(first.distance, second.distance, 1e-3);
+    }
+  }
+}
+
+TEST(RayCaster, ManyRaysAtOnceMeetWhatEachMeetsAlone) {
+  const World world = world_with_box();
+  const RayCaster caster(world);
+  core::Rng rng(3);
+  std::vector<Shot> shots;
+  for (int i = 0; i < 37; ++i)
+    shots.push_back(
+        shot_along(Eigen::Vector3d(1, rng.normal(0, 0.1), rng.normal(0, 0.1)).cast<float>()));
+  std::vector<Shot> together = shots;
+  caster.cast(together, 100);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    caster.cast({&shots[i], 1}, 100);
+    EXPECT_EQ(shots[i].hit, together[i].hit);
+    EXPECT_EQ(shots[i].distance, together[i].distance);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 namespace saker::simulation {
 namespace {
@@ -63,6 +64,53 @@ TEST(ScanPoints, CompensationPutsAMovingWallBackInPlace) {
     p.position = {static_cast<float>(50 - 0.02 * p.column), 0, 0};
   move_points([](int column) { return placed(0.02 * column, 0, 0); }, 100, points);
   for (const ScanPoint& p : points) EXPECT_NEAR(p.position.x(), 50, 1e-4);
+}
+
+TEST(ScanPoints, EveryOrderKeepsEveryPoint) {
+  for (const PointOrder order : {PointOrder::rings, PointOrder::firings, PointOrder::packets}) {
+    core::Rng rng(5);
+    std::vector<ScanPoint> points = grid(6, 50);
+    put_in_order(order, 6, 12, rng, points);
+    std::map<std::pair<int, int>, int> seen;
+    for (const ScanPoint& p : points) ++seen[{p.ring, p.column}];
+    EXPECT_EQ(seen.size(), 300U) << name_of(order);
+    EXPECT_EQ(points.size(), 300U) << name_of(order);
+  }
+}
+
+TEST(ScanPoints, PacketsFollowEachOtherInTheOrderOfTime) {
+  core::Rng rng(2);
+  std::vector<ScanPoint> points = grid(4, 60);
+  for (ScanPoint& p : points) p.part = 0;
+  put_in_order(PointOrder::packets, 4, 12, rng, points);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    EXPECT_LE(points[i - 1].column / 12, points[i].column / 12);
+  for (std::size_t i = 1; i < 12; ++i) {  // of the first packet one row after the other
+    EXPECT_EQ(points[i].ring, points[0].ring);
+    EXPECT_EQ(points[i].column, points[i - 1].column + 1);
+  }
+}
+
+TEST(ScanPoints, LasersThatAreNeighboursDoNotFireOneAfterTheOther) {
+  core::Rng rng(4);
+  std::vector<ScanPoint> points = grid(64, 3);
+  for (ScanPoint& p : points) p.part = 0;
+  put_in_order(PointOrder::firings, 64, 12, rng, points);
+  int neighbours = 0;
+  for (std::size_t i = 1; i < 64; ++i)
+    neighbours += std::abs(points[i].ring - points[i - 1].ring) == 1;
+  EXPECT_LT(neighbours, 10);
+}
+
+TEST(ScanPoints, MovedEachByThePoseOfItsColumn) {
+  std::vector<ScanPoint> points = grid(2, 10);
+  const std::vector<ScanPoint> before = points;
+  move_points([](int column) { return placed(column, 0, 0); }, 10, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3f moved = points[i].position - before[i].position;
+    EXPECT_NEAR(moved.x(), static_cast<float>(points[i].column), 1e-5);
+    EXPECT_NEAR(moved.tail<2>().norm(), 0, 1e-6);
+  }
 }
 
 }  // namespace

@@ -108,5 +108,94 @@ TEST(SensorModel, MixedDrawsManyAndANameDrawsItself) {
   EXPECT_EQ(any_sensor(SensorChoice::qt64, rng), SensorChoice::qt64);
 }
 
+TEST(SensorModel, EveryReceiverIsWithinItsBounds) {
+  for (const SensorModel& m : sensor_models()) {
+    EXPECT_NO_THROW((void)core::checked(m.receiver, m.name)) << m.name;
+    EXPECT_LT(m.receiver.min_range_m, m.receiver.max_range_m) << m.name;
+    EXPECT_GT(m.weight, 0) << m.name;
+  }
+}
+
+TEST(SensorModel, AnOusterSeesHalfAnglesOfItsLine) {
+  for (const SensorModel& m : sensor_models()) {
+    if (m.ouster_origin_m == 0) continue;
+    const double half = m.name.starts_with("OS0") ? 45 : m.name.starts_with("OS1") ? 22.5 : 11.25;
+    EXPECT_NEAR(m.beams.front().elevation_deg, half, 1e-9) << m.name;
+    EXPECT_NEAR(m.beams.back().elevation_deg, -half, 1e-9) << m.name;
+  }
+}
+
+TEST(SensorModel, AUnitTurnsAtItsTypesRate) {
+  for (std::size_t i = 0; i < sensor_models().size(); ++i) {
+    core::Rng rng(i);
+    const SensorUnit unit = make_unit(static_cast<SensorChoice>(i + 1), rng);
+    const double rate = unit.name == "HDL-32E" ? 20 : 10;
+    EXPECT_NEAR(unit.period_s, 1 / rate, 1e-12) << unit.name;
+  }
+}
+
+TEST(SensorModel, EveryBeamOfAUnitIsOfUnitLength) {
+  for (std::size_t i = 0; i < sensor_models().size(); ++i) {
+    core::Rng rng(i);
+    const SensorUnit unit = make_unit(static_cast<SensorChoice>(i + 1), rng);
+    ASSERT_EQ(unit.beams.directions.size(), unit.beams.origins.size());
+    ASSERT_EQ(unit.beams.directions.size(),
+              static_cast<std::size_t>(unit.beams.rows) * unit.beams.columns);
+    ASSERT_EQ(unit.part_of_row.size(), static_cast<std::size_t>(unit.beams.rows));
+    for (const Eigen::Vector3f& beam : unit.beams.directions) ASSERT_NEAR(beam.norm(), 1, 1e-5);
+  }
+}
+
+TEST(SensorModel, ColumnsTurnClockwiseOnceAround) {
+  for (const SensorChoice choice : {SensorChoice::vlp_16, SensorChoice::pandar40,
+                                    SensorChoice::hdl_64e, SensorChoice::os1_32}) {
+    core::Rng rng(4);
+    const BeamTable beams = make_unit(choice, rng).beams;
+    double turned = 0;
+    for (int column = 1; column < beams.columns; ++column) {
+      const auto azimuth = [&](int c) {
+        const Eigen::Vector3f& d = beams.directions[beams.index(beams.rows / 2, c)];
+        return std::atan2(d.y(), d.x());
+      };
+      const double step = std::remainder(azimuth(column) - azimuth(column - 1), 2 * M_PI);
+      ASSERT_LT(step, 0);
+      turned += step;
+    }
+    EXPECT_NEAR(turned, -2 * M_PI * (beams.columns - 1) / beams.columns, 1e-2);
+  }
+}
+
+TEST(SensorModel, UnitsOfOneTypeScatterBySeveralTimes) {
+  const double nominal = sensor_model(SensorChoice::vlp_16).receiver.noise_m;
+  double least = 1, most = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    core::Rng rng(seed);
+    const double noise = make_unit(SensorChoice::vlp_16, rng).receiver.noise_m;
+    least = std::min(least, noise);
+    most = std::max(most, noise);
+    EXPECT_GE(noise, nominal * std::exp(-1.001));
+    EXPECT_LE(noise, nominal * std::exp(1.001));
+  }
+  EXPECT_GT(most, 5 * least);
+}
+
+TEST(SensorModel, BeamsFarAsideLookWhereTheirColumnWillBe) {
+  core::Rng rng(2);
+  const BeamTable beams = make_unit(SensorChoice::vls_128, rng).beams;
+  const std::vector<BeamAngle>& sheet = sensor_model(SensorChoice::vls_128).beams;
+  const auto azimuth_deg = [&](int row) {
+    const Eigen::Vector3f& d = beams.directions[beams.index(row, 0)];
+    return std::atan2(d.y(), d.x()) * 180 / M_PI;
+  };
+  const double apart = std::remainder(azimuth_deg(3) - azimuth_deg(4), 360);
+  const double said = sheet[4].azimuth_deg - sheet[3].azimuth_deg;  // ahead is clockwise
+  EXPECT_NEAR(apart, said, 0.3);
+}
+
+TEST(SensorModel, FourBeamsOfFiveAnswerAtTheSheetsRangeOfTenPercent) {
+  const ReceiverConfig& qt = sensor_model(SensorChoice::qt64).receiver;
+  EXPECT_NEAR(1 - std::exp(-0.1 / (20.0 * 20 * qt.sensitivity)), 1 - std::exp(-1.6), 1e-9);
+}
+
 }  // namespace
 }  // namespace saker::simulation

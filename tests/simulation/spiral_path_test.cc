@@ -90,5 +90,81 @@ TEST(SpiralPath, HeightDoesNotFollowFromRange) {
   EXPECT_GT(high, 3.6);
 }
 
+/// Derivatives of the place by central differences.
+struct Motion {
+  Eigen::Vector3d velocity, acceleration;
+};
+
+Motion motion_at(const SpiralPath& path, double t) {
+  constexpr double kStep = 0.01;
+  const Eigen::Vector3d before = path.pose(t - kStep).translation();
+  const Eigen::Vector3d now = path.pose(t).translation();
+  const Eigen::Vector3d after = path.pose(t + kStep).translation();
+  return {(after - before) / (2 * kStep), (after - 2 * now + before) / (kStep * kStep)};
+}
+
+TEST(SpiralPath, NeitherPlaceNorVelocityNorAccelerationJumps) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const SpiralPath path = path_of(seed);
+    Eigen::Vector3d place = path.pose(-0.5).translation();
+    Motion before = motion_at(path, -0.5);
+    for (double t = -0.48; t < 24.5; t += 0.02) {
+      const Motion now = motion_at(path, t);
+      EXPECT_LT((path.pose(t).translation() - place).norm(), 0.12) << t;
+      EXPECT_LT((now.velocity - before.velocity).norm(), 0.15) << t;
+      EXPECT_LT((now.acceleration - before.acceleration).norm(), 0.35) << t;
+      place = path.pose(t).translation();
+      before = now;
+    }
+  }
+}
+
+/// How far beyond the car's outline the ellipse through p reaches.
+double gap_of(const Eigen::Vector2d& p) {
+  double low = 0, high = 50;
+  while (high - low > 1e-6) {
+    const double gap = 0.5 * (low + high);
+    const Eigen::Vector2d axes = kCar.array() + gap;
+    (p.cwiseQuotient(axes).norm() > 1 ? low : high) = gap;
+  }
+  return low;
+}
+
+TEST(SpiralPath, TheGapToTheObjectGrowsOrShrinksAllTheWay) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const SpiralPath path = path_of(seed);
+    const auto range = [&](double t) { return gap_of(seen_from_car(path, t).head<2>()); };
+    const double way = range(24) > range(0) ? 1 : -1;
+    EXPECT_GT(way * (range(18) - range(6)), 0) << seed;
+    EXPECT_GT(way * (range(24) - range(12)), 0) << seed;
+  }
+}
+
+TEST(SpiralPath, GoesBothWaysAroundAndInAndOut) {
+  int left = 0, outwards = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const SpiralPath path = path_of(seed);
+    const Eigen::Vector3d a = seen_from_car(path, 11), b = seen_from_car(path, 11.2);
+    left += a.x() * b.y() - a.y() * b.x() > 0;
+    outwards += seen_from_car(path, 24).norm() > seen_from_car(path, 0).norm();
+  }
+  EXPECT_NEAR(left, 30, 14);
+  EXPECT_NEAR(outwards, 30, 14);
+}
+
+TEST(SpiralPath, TheSameSeedIsTheSameFlight) {
+  EXPECT_TRUE(path_of(3).pose(7.7).isApprox(path_of(3).pose(7.7)));
+  EXPECT_FALSE(path_of(3).pose(7.7).isApprox(path_of(4).pose(7.7)));
+}
+
+TEST(SpiralPath, IsTheSameFlightWhereverTheObjectStands) {
+  core::Rng a(5), b(5);
+  const SpiralConfig config;
+  const SE3 T = placed(40, -9, 2, 2.2);
+  const SpiralPath here(config, SE3::Identity(), kCar, a), there(config, T, kCar, b);
+  for (double t = 0; t < 24; t += 1.1)
+    EXPECT_LT((there.pose(t).translation() - T * here.pose(t).translation()).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace saker::simulation

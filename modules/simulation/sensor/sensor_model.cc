@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNoiseSpread = 1.0;  ///< ln of a unit's noise over its sheet's, at most
 constexpr double kBiasSpread = 1.4;   ///< the same of what one beam's ranges are off by
 
-/// Range of 63 % of the returns from 10 % reflectivity: what a sheet's range at that comes from.
+/// Of 10 % reflectivity four beams of five answer at the range that a sheet says of it.
 double sensitivity(double range_at_tenth_m) {
   return 0.1 / (1.6 * range_at_tenth_m * range_at_tenth_m);
 }

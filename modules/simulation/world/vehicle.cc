@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "saker/simulation/world/vehicle_parts.h"
+
 namespace saker::simulation {
 namespace {
 
@@ -18,15 +20,6 @@ std::uint16_t label_of(VehicleKind kind) {
   }
 }
 
-/// Paint from black (a third of the fleet is dark) to white; it mirrors, so that it is lost at
-/// grazing angles.
-Material any_paint(std::uint16_t label, core::Rng& rng) {
-  const double tone = rng.uniform();
-  const double reflectivity = 0.02 + 0.75 * tone * tone * tone + 0.1 * rng.uniform();
-  const double gloss = rng.chance(0.25) ? rng.uniform(0.8, 0.97) : rng.uniform(0.3, 0.8);
-  return {label, static_cast<float>(reflectivity), 0.08F, static_cast<float>(gloss), 0, 0};
-}
-
 Material black_paint(std::uint16_t label, core::Rng& rng) {
   const double reflectivity = rng.uniform(0.02, 0.05);
   const double gloss = rng.uniform(0.6, 0.95);
@@ -34,7 +27,7 @@ Material black_paint(std::uint16_t label, core::Rng& rng) {
 }
 
 Material random_paint(std::uint16_t label, Paint paint, core::Rng& rng) {
-  return paint == Paint::black ? black_paint(label, rng) : any_paint(label, rng);
+  return paint == Paint::black ? black_paint(label, rng) : any_paint(label, 0.3, rng);
 }
 
 Material vehicle_glass(std::uint16_t label, core::Rng& rng) {

@@ -6,13 +6,6 @@
 namespace saker::simulation {
 namespace {
 
-Material any_paint(std::uint16_t label, core::Rng& rng) {
-  const double tone = rng.uniform();
-  const double bright = 0.02 + 0.75 * tone * tone * tone + 0.1 * rng.uniform();
-  const double gloss = rng.chance(0.25) ? rng.uniform(0.8, 0.97) : rng.uniform(0.2, 0.8);
-  return {label, static_cast<float>(bright), 0.08F, static_cast<float>(gloss), 0, 0};
-}
-
 /// What boxes and tarpaulins are made of: brighter and duller than a cab's paint.
 Material any_cover(std::uint16_t label, core::Rng& rng) {
   const double bright = rng.chance(0.55) ? rng.uniform(0.4, 0.85) : rng.uniform(0.05, 0.45);
@@ -31,10 +24,17 @@ Material any_glass(std::uint16_t label, core::Rng& rng) {
 
 }  // namespace
 
+Material any_paint(std::uint16_t label, double dullest, core::Rng& rng) {
+  const double tone = rng.uniform();
+  const double bright = 0.02 + 0.75 * tone * tone * tone + 0.1 * rng.uniform();
+  const double gloss = rng.chance(0.25) ? rng.uniform(0.8, 0.97) : rng.uniform(dullest, 0.8);
+  return {label, static_cast<float>(bright), 0.08F, static_cast<float>(gloss), 0, 0};
+}
+
 Parts make_parts(World& world, const Palette& palette, std::uint16_t label, core::Rng& rng) {
   Parts parts;
   parts.label = label;
-  Material paint = any_paint(label, rng);
+  Material paint = any_paint(label, 0.2, rng);
   if (palette.paint == Paint::black) paint.reflectivity = any(rng, 0.02, 0.05);
   parts.paint = world.add(paint);
   parts.second = world.add(any_cover(label, rng));

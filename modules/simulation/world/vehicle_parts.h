@@ -15,6 +15,10 @@ struct Parts {
   MaterialId glass = 0, interior = 0, rubber = 0, rim = 0, plate = 0, dark = 0, chrome = 0;
 };
 
+/// Paint from black (a third of the fleet is dark) to white; it mirrors, so that it is lost at
+/// grazing angles. `dullest`: the least gloss.
+[[nodiscard]] Material any_paint(std::uint16_t label, double dullest, core::Rng& rng);
+
 /// Parts of a random vehicle: paint from black to white, glass from clear to tinted.
 [[nodiscard]] Parts make_parts(World& world, const Palette& palette, std::uint16_t label,
                                core::Rng& rng);

@@ -5,99 +5,70 @@
 namespace saker::simulation {
 namespace {
 
-/// A normal draw within two standard deviations.
+/// A normal draw within two standard deviations; without any, the mean, and nothing is drawn.
 double draw(core::Rng& rng, double mean, double sd) {
+  if (sd == 0) return mean;
   return mean + sd * std::clamp(rng.normal(), -2.0, 2.0);
 }
 
-void common(VehicleShape& s, core::Rng& rng) {
-  s.clearance = draw(rng, 0.17, 0.02);
+/// How the bodies of a kind of car are cut: m, but `screen_base` is a share of the length.
+struct Cut {
+  double length, width, height;
+  double bonnet, belt, tail;       ///< heights
+  double screen_base, screen_run;  ///< where the windscreen begins, and its run along x
+  double boot, window_run;         ///< behind the rear window, and its run
+};
+
+// Sedan, hatchback, SUV, van, pickup: means and standard deviations. A pickup's tail puts its bed's
+// floor 0.77 to 0.89 m above the ground.
+constexpr Cut kMeans[] = {{4.65, 1.81, 1.45, 0.72, 0.93, 1.0, 0.28, 0.65, 0.6, 0.75},
+                          {4.05, 1.74, 1.48, 0.76, 0.95, 1.0, 0.25, 0.7, 0.08, 0.42},
+                          {4.6, 1.88, 1.71, 0.93, 1.12, 1.15, 0.26, 0.6, 0.08, 0.33},
+                          {4.95, 1.92, 1.93, 0.98, 1.16, 1.2, 0.17, 0.75, 0.03, 0.12},
+                          {5.3, 1.9, 1.79, 1.0, 1.15, 1.32, 0.25, 0.55, 1.55, 0.12}};
+constexpr Cut kSpreads[] = {{0.2, 0.05, 0.03, 0.04, 0.03, 0.05, 0.015, 0.06, 0.1, 0.12},
+                            {0.22, 0.05, 0.04, 0.04, 0.03, 0.04, 0.015, 0.06, 0.04, 0.1},
+                            {0.18, 0.05, 0.06, 0.05, 0.04, 0.04, 0.015, 0.06, 0.04, 0.08},
+                            {0.25, 0.05, 0.05, 0.05, 0.04, 0.04, 0.02, 0.08, 0, 0.03},
+                            {0.15, 0.05, 0.05, 0.04, 0.03, 0.03, 0.01, 0.05, 0.1, 0.03}};
+constexpr double kLift[] = {0, 0, 0.05, 0, 0.08};  ///< m, of the underbody over a sedan's
+
+void draw_car(VehicleShape& s, core::Rng& rng) {
+  const auto kind = static_cast<std::size_t>(s.kind);
+  const auto drawn = [&](double Cut::*what) {
+    return draw(rng, kMeans[kind].*what, kSpreads[kind].*what);
+  };
+  s.length = drawn(&Cut::length);
+  s.width = drawn(&Cut::width);
+  s.height = drawn(&Cut::height);
+  s.clearance = draw(rng, 0.17, 0.02) + kLift[kind];
   s.wheel_radius = std::clamp(0.215 * s.height, 0.29, 0.39);
   s.front_axle = draw(rng, 0.19, 0.012) * s.length;
   s.rear_axle = draw(rng, 0.2, 0.018) * s.length;
   s.tumblehome = draw(rng, 0.3, 0.06);
   s.roundness = draw(rng, 0.17, 0.035);
+  s.bonnet = drawn(&Cut::bonnet);
+  s.belt = drawn(&Cut::belt);
+  s.tail = drawn(&Cut::tail);
+  s.screen_base = drawn(&Cut::screen_base) * s.length;
+  s.roof_front = s.screen_base + drawn(&Cut::screen_run);
+  s.rear_base = s.length - drawn(&Cut::boot);
+  s.roof_rear = s.rear_base - drawn(&Cut::window_run);
 }
 
-void sedan(VehicleShape& s, core::Rng& rng) {
-  s.length = draw(rng, 4.65, 0.2);
-  s.width = draw(rng, 1.81, 0.05);
-  s.height = draw(rng, 1.45, 0.03);
-  common(s, rng);
-  s.bonnet = draw(rng, 0.72, 0.04);
-  s.belt = draw(rng, 0.93, 0.03);
-  s.tail = draw(rng, 1.0, 0.05);
-  s.screen_base = draw(rng, 0.28, 0.015) * s.length;
-  s.roof_front = s.screen_base + draw(rng, 0.65, 0.06);
-  s.rear_base = s.length - draw(rng, 0.6, 0.1);
-  s.roof_rear = s.rear_base - draw(rng, 0.75, 0.12);
-}
-
-void hatchback(VehicleShape& s, core::Rng& rng) {
-  s.length = draw(rng, 4.05, 0.22);
-  s.width = draw(rng, 1.74, 0.05);
-  s.height = draw(rng, 1.48, 0.04);
-  common(s, rng);
-  s.bonnet = draw(rng, 0.76, 0.04);
-  s.belt = draw(rng, 0.95, 0.03);
-  s.tail = draw(rng, 1.0, 0.04);
-  s.screen_base = draw(rng, 0.25, 0.015) * s.length;
-  s.roof_front = s.screen_base + draw(rng, 0.7, 0.06);
-  s.rear_base = s.length - draw(rng, 0.08, 0.04);
-  s.roof_rear = s.rear_base - draw(rng, 0.42, 0.1);
+/// A quarter of the hatchbacks are estates: a longer roof.
+void stretch(VehicleShape& s, core::Rng& rng) {
   if (!rng.chance(0.25)) return;
-  s.length += 0.35;  // an estate: a longer roof
+  s.length += 0.35;
   s.rear_base += 0.35;
   s.roof_rear += 0.33;
 }
 
-void suv(VehicleShape& s, core::Rng& rng) {
-  s.length = draw(rng, 4.6, 0.18);
-  s.width = draw(rng, 1.88, 0.05);
-  s.height = draw(rng, 1.71, 0.06);
-  common(s, rng);
-  s.clearance += 0.05;
-  s.bonnet = draw(rng, 0.93, 0.05);
-  s.belt = draw(rng, 1.12, 0.04);
-  s.tail = draw(rng, 1.15, 0.04);
-  s.screen_base = draw(rng, 0.26, 0.015) * s.length;
-  s.roof_front = s.screen_base + draw(rng, 0.6, 0.06);
-  s.rear_base = s.length - draw(rng, 0.08, 0.04);
-  s.roof_rear = s.rear_base - draw(rng, 0.33, 0.08);
-}
-
-void van(VehicleShape& s, core::Rng& rng) {
-  s.length = draw(rng, 4.95, 0.25);
-  s.width = draw(rng, 1.92, 0.05);
-  s.height = draw(rng, 1.93, 0.05);
-  common(s, rng);
-  s.bonnet = draw(rng, 0.98, 0.05);
-  s.belt = draw(rng, 1.16, 0.04);
-  s.tail = draw(rng, 1.2, 0.04);
-  s.screen_base = draw(rng, 0.17, 0.02) * s.length;
-  s.roof_front = s.screen_base + draw(rng, 0.75, 0.08);
-  s.rear_base = s.length - 0.03;
-  s.roof_rear = s.rear_base - draw(rng, 0.12, 0.03);
+/// Upright sides, full ends.
+void square_up(VehicleShape& s, core::Rng& rng) {
   s.tumblehome = draw(rng, 0.12, 0.03);
   s.roundness = draw(rng, 0.1, 0.02);
   s.panel_sides = rng.chance(0.5);
-}
-
-void pickup(VehicleShape& s, core::Rng& rng) {
-  s.length = draw(rng, 5.3, 0.15);
-  s.width = draw(rng, 1.9, 0.05);
-  s.height = draw(rng, 1.79, 0.05);
-  common(s, rng);
-  s.clearance += 0.08;
-  s.bonnet = draw(rng, 1.0, 0.04);
-  s.belt = draw(rng, 1.15, 0.03);
-  s.tail = draw(rng, 1.32, 0.03);  // the bed's floor 0.77 to 0.89 m above the ground
-  s.screen_base = draw(rng, 0.25, 0.01) * s.length;
-  s.roof_front = s.screen_base + draw(rng, 0.55, 0.05);
-  s.rear_base = s.length - draw(rng, 1.55, 0.1);
-  s.roof_rear = s.rear_base - draw(rng, 0.12, 0.03);
-  s.open_bed = true;
-  s.roundness = draw(rng, 0.1, 0.02);
 }
 
 void heavy(VehicleShape& s, core::Rng& rng) {
@@ -123,25 +94,15 @@ std::string name_of(VehicleKind kind) {
 VehicleShape random_shape(VehicleKind kind, core::Rng& rng) {
   VehicleShape s;
   s.kind = kind;
-  switch (kind) {
-    case VehicleKind::sedan:
-      sedan(s, rng);
-      break;
-    case VehicleKind::hatchback:
-      hatchback(s, rng);
-      break;
-    case VehicleKind::suv:
-      suv(s, rng);
-      break;
-    case VehicleKind::van:
-      van(s, rng);
-      break;
-    case VehicleKind::pickup:
-      pickup(s, rng);
-      break;
-    default:
-      heavy(s, rng);
+  if (kind >= VehicleKind::truck) {
+    heavy(s, rng);
+    return s;
   }
+  draw_car(s, rng);
+  if (kind == VehicleKind::hatchback) stretch(s, rng);
+  if (kind == VehicleKind::van) square_up(s, rng);
+  s.open_bed = kind == VehicleKind::pickup;
+  if (s.open_bed) s.roundness = draw(rng, 0.1, 0.02);
   return s;
 }
 

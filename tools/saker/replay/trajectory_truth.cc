@@ -27,15 +27,15 @@ std::vector<StampedPose> read_trajectory(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::vector<StampedPose> poses;
   std::string line;
-  while (std::getline(stream, line)) {
+  for (int number = 1; std::getline(stream, line); ++number) {
     if (line.empty() || line.front() == '#') continue;
     std::istringstream row(line);
     StampedPose pose;
     Eigen::Vector3d p;
     Eigen::Vector4d q;
     if (!(row >> pose.t >> p.x() >> p.y() >> p.z() >> q[0] >> q[1] >> q[2] >> q[3])) {
-      throw Error(fmt::format("{}:{}: expected eight numbers t x y z qx qy qz qw", file.string(),
-                              poses.size() + 1));
+      throw Error(
+          fmt::format("{}:{}: expected eight numbers t x y z qx qy qz qw", file.string(), number));
     }
     pose.T_world_lidar.linear() = Eigen::Quaterniond(q).normalized().toRotationMatrix();
     pose.T_world_lidar.translation() = p;
