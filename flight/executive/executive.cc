@@ -148,12 +148,14 @@ bool Executive::run(Service& service, const FlightMark& mark) {
   }
   const auto begin = std::chrono::steady_clock::now();
   const double begin_cpu_s = process_seconds();
+  FlightLine line;
   if (!start_loops(service)) return false;
   for (int look = 1; !board_.mission_done && stop_requests() < 2; ++look) {
     std::this_thread::sleep_for(kLook);
     if (stop_requests() > 0) board_.land_ordered = true;
     feed_watchdog(service);
     say_events(mark);
+    line.show(status());
     if (look % kLooksPerHealth == 0) say_health();
     if (look % (kLooksPerHealth * kHealthsPerProgress) == 0) say_progress(service);
   }
@@ -161,6 +163,7 @@ bool Executive::run(Service& service, const FlightMark& mark) {
   service.stopping();
   stop();
   say_events(mark);
+  line.show(status());
   say_health();
   say_progress(service);
   ran_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -9,6 +9,7 @@
 #include "flight/bus/occupancy_messages.h"
 #include "flight/bus/presence.h"
 #include "flight/executive/blackboard.h"
+#include "flight/executive/flight_line.h"
 #include "flight/executive/loop.h"
 #include "flight/executive/robot_exchange.h"
 #include "flight/process/configuration.h"
@@ -84,6 +85,7 @@ class Executive {
   void say_events(const FlightMark& mark);
   void say_health();
   void say_progress(const Service& service);
+  [[nodiscard]] FlightStatus status();
   void say_totals() const;
   void save_loops(const std::filesystem::path& file) const;
   [[nodiscard]] const autonomy::PlanningReport& tour_report();

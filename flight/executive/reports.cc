@@ -125,7 +125,29 @@ void Executive::say_progress(const Service& service) {
       "{}, target {} of {}, {:.2f} CPU", to_string(last_event_.to),
       std::min(report.visited + report.unreachable + 1, report.targets), report.targets, cpu);
   service.say(status);
-  spdlog::info("{};{}", status, loops);
+  spdlog::info(status);
+  spdlog::debug("loops:{}", loops);
+}
+
+FlightStatus Executive::status() {
+  const autonomy::PlanningReport& report = tour_report();
+  FlightStatus status{.phase = to_string(last_event_.to),
+                      .target = std::min(report.visited + report.unreachable + 1, report.targets),
+                      .targets = report.targets,
+                      .worst_loop = {}};
+  if (const auto vehicle = board_.vehicle.latest()) {
+    status.height_m = vehicle->height_m;
+    status.battery_share = vehicle->battery_share;
+  }
+  if (const auto verdict = board_.verdict.latest()) status.clearance_m = verdict->clearance_m;
+  for (const auto& loop : loops_) {
+    const auto health = loop->health();
+    if (health == nullptr || !(health->worst_lateness_ms > 0)) continue;
+    if (health->worst_lateness_ms <= status.lateness_ms) continue;
+    status.worst_loop = loop->name();
+    status.lateness_ms = health->worst_lateness_ms;
+  }
+  return status;
 }
 
 void Executive::say_totals() const {

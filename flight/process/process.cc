@@ -39,9 +39,11 @@ class JournalPriority : public spdlog::custom_flag_formatter {
   }
 };
 
+constexpr const char* kPattern = "%H:%M:%S.%e %n %^%l%$ %v";
+
 /// The journal knows time, name and level of a line by itself.
 void set_form(spdlog::logger& logger) {
-  if (!to_journal()) return logger.set_pattern("%H:%M:%S.%e %n %^%l%$ %v");
+  if (!to_journal()) return logger.set_pattern(kPattern);
   auto form = std::make_unique<spdlog::pattern_formatter>();
   form->add_flag<JournalPriority>('*').set_pattern("%*%v");
   logger.set_formatter(std::move(form));
@@ -61,6 +63,14 @@ int refuse(const std::string& name, const std::string& what) {
 }
 
 }  // namespace
+
+void log_above_a_line(bool room) {
+  const auto logger = spdlog::default_logger();
+  spdlog::sinks::sink& terminal = *logger->sinks().front();
+  const bool verbose = logger->level() <= spdlog::level::debug;
+  terminal.set_level(room && !verbose ? spdlog::level::warn : spdlog::level::trace);
+  terminal.set_pattern(room ? std::string("\r\033[K") + kPattern : kPattern);
+}
 
 int stop_requests() { return requests; }
 

@@ -29,6 +29,11 @@ struct Program {
 /// line on stderr and status 2.
 [[nodiscard]] int run_program(const Program& program, int argc, const char* const* argv);
 
+/// Whether the log leaves room for a line on the terminal that is rewritten: what is below a
+/// warning goes to the log's file alone, unless the process was started with -v. To be called where
+/// stderr is a terminal and the log has a file.
+void log_above_a_line(bool room);
+
 /// How often SIGTERM or SIGINT came.
 [[nodiscard]] int stop_requests();
 

@@ -1,6 +1,7 @@
 #include "saker/core/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,7 +23,42 @@ std::string bar(double ratio) {
   return text;
 }
 
+/// Of the terminal; 0: not known.
+int columns_of_stderr() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
 }  // namespace
+
+std::string first_columns(const std::string& text, int columns) {
+  if (columns <= 0) return text;
+  int seen = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U;
+    if (begins && ++seen > columns) return text.substr(0, i);
+  }
+  return text;
+}
+
+StatusLine::StatusLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void StatusLine::show(const std::string& text) {
+  if (!terminal_) return;
+  fmt::print(stderr, "\r\033[K{}", first_columns(text, columns_of_stderr()));
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void StatusLine::clear() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+  shown_ = false;
+}
+
+void StatusLine::keep() {
+  if (shown_) fmt::print(stderr, "\n");
+  shown_ = false;
+}
 
 std::string progress_text(const std::string& what, long done, long total, double elapsed_s) {
   if (total <= 0) return fmt::format("{} {}, {:.0f} s", what, done, elapsed_s);
@@ -36,20 +72,14 @@ std::string progress_text(const std::string& what, long done, long total, double
 Progress::Progress(std::string what, long total)
     : what_(std::move(what)),
       total_(total),
-      terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
-      next_(start_ + (terminal_ ? Clock::duration(0) : Clock::duration(kLinePeriod))) {}
-
-Progress::~Progress() {
-  if (terminal_ && drawn_) std::fputs("\r\033[K", stderr);
-}
+      next_(start_ + (bar_.on_terminal() ? Clock::duration(0) : Clock::duration(kLinePeriod))) {}
 
 void Progress::update(long done) {
   const auto now = Clock::now();
   if (now < next_) return;
-  drawn_ = true;
-  if (terminal_) {
-    draw_bar(done);
+  if (bar_.on_terminal()) {
+    bar_.show(progress_text(what_, done, total_, seconds()));
     next_ = now + kBarPeriod;
   } else {
     print_line(done);
@@ -59,11 +89,6 @@ void Progress::update(long done) {
 
 double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
-}
-
-void Progress::draw_bar(long done) const {
-  fmt::print(stderr, "\r\033[K{}", progress_text(what_, done, total_, seconds()));
-  std::fflush(stderr);
 }
 
 void Progress::print_line(long done) const {

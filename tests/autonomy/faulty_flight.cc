@@ -45,7 +45,7 @@ class Listener : public MissionObserver {
 }  // namespace
 
 void RecordedPlant::step_to(Time time) {
-  SimulatedPlant::step_to(time);
+  plant_.step_to(time);
   const simulation::VehicleTruth truth = vehicle_.truth();
   const VehicleState last = rows.empty() ? VehicleState{} : rows.back().state;
   rows.push_back({truth, last});
@@ -53,7 +53,7 @@ void RecordedPlant::step_to(Time time) {
 }
 
 std::vector<SensorPacket> RecordedPlant::take_packets() {
-  auto packets = SimulatedPlant::take_packets();
+  auto packets = plant_.take_packets();
   if (link == Link::gone) packets.clear();
   if (link == Link::blind) {
     std::erase_if(packets, [](const SensorPacket& packet) {
@@ -64,25 +64,25 @@ std::vector<SensorPacket> RecordedPlant::take_packets() {
 }
 
 std::optional<VehicleState> RecordedPlant::take_state() {
-  const auto state = SimulatedPlant::take_state();
+  const auto state = plant_.take_state();
   if (state && !rows.empty()) rows.back().state = *state;
   return link == Link::gone ? std::nullopt : state;
 }
 
 std::vector<CommandAck> RecordedPlant::take_acks() {
-  auto acks = SimulatedPlant::take_acks();
+  auto acks = plant_.take_acks();
   if (link == Link::gone) acks.clear();
   return acks;
 }
 
 void RecordedPlant::send(const VehicleOdometry& odometry) {
-  if (hears()) SimulatedPlant::send(odometry);
+  if (hears()) plant_.send(odometry);
 }
 void RecordedPlant::send(const Setpoint& setpoint) {
-  if (hears()) SimulatedPlant::send(setpoint);
+  if (hears()) plant_.send(setpoint);
 }
 void RecordedPlant::send(const Command& command) {
-  if (hears()) SimulatedPlant::send(command);
+  if (hears()) plant_.send(command);
 }
 
 void MortalChecker::begin() {

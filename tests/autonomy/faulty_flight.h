@@ -11,7 +11,7 @@
 namespace saker::autonomy {
 
 /// The simulated vehicle, of which the flight is recorded, and that can be cut off.
-class RecordedPlant : public tools::SimulatedPlant {
+class RecordedPlant : public SteppedPlant {
  public:
   enum class Link {
     up,
@@ -26,8 +26,9 @@ class RecordedPlant : public tools::SimulatedPlant {
   };
 
   explicit RecordedPlant(simulation::SimulatedVehicle& vehicle)
-      : SimulatedPlant(vehicle), vehicle_(vehicle) {}
+      : vehicle_(vehicle), plant_(vehicle) {}
 
+  [[nodiscard]] Time now() const override { return plant_.now(); }
   void step_to(Time time) override;
   [[nodiscard]] std::vector<SensorPacket> take_packets() override;
   [[nodiscard]] std::optional<VehicleState> take_state() override;
@@ -44,6 +45,7 @@ class RecordedPlant : public tools::SimulatedPlant {
   [[nodiscard]] bool hears() const { return link == Link::up || link == Link::blind; }
 
   simulation::SimulatedVehicle& vehicle_;
+  tools::SimulatedPlant plant_;
 };
 
 /// The collision checker, that can die, and begin again with nothing.

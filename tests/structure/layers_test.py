@@ -19,9 +19,10 @@ LAYERS = {
     "motion": (2, "core occupancy"),
     "simulation": (2, "core lidar objects"),
     "active": (3, "core objects uncertainty occupancy motion"),
+    "multirobot": (3, "core objects slam"),
     "exchange": (3, "core objects slam"),
     "autonomy": (4, "core lidar objects occupancy odometry segmentation detection slam uncertainty "
-                    "motion active exchange"),
+                    "motion active multirobot exchange"),
 }
 OUTSIDE = ("lcm/", "sys/socket.h", "netinet/", "arpa/", "opencv2/highgui")  # of layer 5 only
 THE_SENSORS_SOCKET = "modules/lidar/udp_receiver.cc"  # the one edge that lies in a module
@@ -35,15 +36,9 @@ def used(module):
         if not name.startswith(f"modules/{module}/"):
             continue
         for include in repository.includes(path):
-            found.setdefault(include.split("/")[0], name)
+            folder, *rest = include.split("/")
+            found.setdefault(rest[0] if folder == "saker" else include, name)
     return found
-
-
-def linked(module):
-    """The modules that its CMakeLists.txt names."""
-    text = (repository.ROOT / "modules" / module / "CMakeLists.txt").read_text()
-    uses = re.search(r"\bUSES\s+([a-z_\s]*)", text)
-    return set(uses.group(1).split()) if uses else set()
 
 
 class Layers(unittest.TestCase):
@@ -55,11 +50,21 @@ class Layers(unittest.TestCase):
                     self.assertIn(other, allowed)
 
     def test_cmake_names_every_module_that_is_included(self):
+        linked = repository.uses()
         for module in repository.modules():
             for other, source in used(module).items():
                 if other != module:
                     with self.subTest(source=source, includes=other):
-                        self.assertIn(other, linked(module))
+                        self.assertIn(other, linked[module])
+
+    def test_cmake_and_the_table_name_the_same(self):
+        self.assertEqual(repository.uses(), {module: set(uses.split()) for module, (_, uses) in LAYERS.items()})
+
+    def test_the_processes_do_not_use_the_tools(self):
+        for path in repository.files(".h", ".cc"):
+            if repository.relative(path).startswith("flight/"):
+                with self.subTest(source=repository.relative(path)):
+                    self.assertEqual([i for i in repository.includes(path) if i.startswith("tools/")], [])
 
     def test_the_table_itself_goes_down_only(self):
         for module, (layer, uses) in LAYERS.items():

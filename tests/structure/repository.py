@@ -5,6 +5,7 @@ import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+USES = r"^saker_uses\((\w+)([^)]*)\)"
 LEFT_OUT = {"build", ".git", "__pycache__"}
 
 
@@ -24,7 +25,13 @@ def relative(path):
 def modules():
     """Names of the modules in the order of modules/CMakeLists.txt."""
     text = (ROOT / "modules/CMakeLists.txt").read_text()
-    return re.search(r"foreach\(module ([^)]*)\)", text).group(1).split()
+    return [name for name, _ in re.findall(USES, text, re.MULTILINE)]
+
+
+def uses():
+    """{module: those that it uses}, as modules/CMakeLists.txt has them."""
+    text = (ROOT / "modules/CMakeLists.txt").read_text()
+    return {name: set(others.split()) for name, others in re.findall(USES, text, re.MULTILINE)}
 
 
 def includes(path):

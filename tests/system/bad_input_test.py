@@ -1,10 +1,12 @@
 """Bad recordings, models and outputs through the program: one line and status 2, or counted and status 0."""
 
+import base64
 import json
 import random
 import shutil
 import struct
 import unittest
+from xml.etree import ElementTree
 
 from program import ROOT, ProgramTest, saker
 
@@ -126,6 +128,16 @@ class BadInput(ProgramTest):
         run = saker("view", drive, "--scan", 2, "-o", self.folder / "v.png")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual((self.folder / "v.png").read_bytes()[:4], b"\x89PNG")
+        svg = ElementTree.parse(self.folder / "v.svg").getroot()
+        width, height = (float(size) for size in svg.get("viewBox").split()[2:])
+        for image in svg.iter("{http://www.w3.org/2000/svg}image"):  # two strips and the points
+            self.assertLess(float(image.get("x")) + float(image.get("width")), width)
+            png = base64.b64decode(image.get("{http://www.w3.org/1999/xlink}href").split(",")[1], validate=True)
+            self.assertEqual(png[:4], b"\x89PNG")
+        texts = [text.text for text in svg.iter("{http://www.w3.org/2000/svg}text")]
+        for text in ("x, m", "y, m", "vehicle", "class"):
+            self.assertIn(text, texts)
+        self.assertIn("--force", self.refused("view", drive, "--scan", 2, "-o", self.folder / "v.svg"))
 
 
 if __name__ == "__main__":

@@ -18,9 +18,9 @@ ROBOTS = """  - {name: R1, x_m: -3, lot_m: [-100, -60, 0, -60, 0, 60, -100, 60]}
 """
 # Ends on the ground after a second: nothing has come from the sensor's pipeline by then.
 AT_ONCE = ("--set", "mission.preflight_s=1")
-LEFT = {"R1", "R2", "log.txt", "map.json", "map.png", "map.smap", "mission.json", "prior.json",
+LEFT = {"R1", "R2", "log.txt", "map.json", "map.png", "map.smap", "map.svg", "mission.json", "prior.json",
         "results.json", "table.txt", "truth.json"}
-LEFT_BY_A_ROBOT = {"detections.jsonl", "history.bin", "log.txt", "map.json", "map.png", "map.smap",
+LEFT_BY_A_ROBOT = {"detections.jsonl", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "map.svg",
                    "odometry.txt", "prior.json", "results.json", "timings.csv", "trajectory.txt", "trajectory_truth.txt", "truth.json",
                    "viewpoints.csv", "viewpoints.txt"}
 

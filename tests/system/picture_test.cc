@@ -1,5 +1,6 @@
 #include "tools/saker/picture/picture.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
@@ -7,6 +8,7 @@
 
 #include "saker/core/error.h"
 #include "saker/core/files.h"
+#include "saker/core/rng.h"
 
 namespace saker::tools {
 namespace {
@@ -20,7 +22,23 @@ cv::Mat saved(const Picture& picture, const std::string& name) {
   picture.save(file);
   cv::Mat image = cv::imread(file.string());
   fs::remove(file);
+  fs::remove(svg_beside(file));
   return image;
+}
+
+/// As SVG.
+std::string drawn(const Picture& picture) {
+  const fs::path file = picture_file("drawn.svg");
+  picture.save(file);
+  const std::string svg = core::read_file(file);
+  fs::remove(file);
+  return svg;
+}
+
+int count_of(const std::string& text, const std::string& part) {
+  int n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
 }
 
 /// Mean place of the pixels that are nearly of the colour.
@@ -84,15 +102,18 @@ TEST(Picture, WhatIsOutsideOrNotFiniteIsNotDrawn) {
   EXPECT_EQ(cv::norm(blank, image, cv::NORM_INF), 0);
 }
 
+// Of a view of 400 × 400 pixels: where it begins, and what lies inside of its frame.
+constexpr int kViewLeft = 64, kViewTop = 80;
+const cv::Rect kInView(kViewLeft + 2, kViewTop + 2, 396, 396);
+
 TEST(Picture, PointsGetDarkerWhereThereAreMore) {
   Picture picture(square(), 400);
   picture.points(std::vector<Eigen::Vector2d>(1, {-5, 0}), colours::kInk);
   picture.points(std::vector<Eigen::Vector2d>(20, {5, 0}), colours::kInk);
   int dark = 0;
-  const Eigen::Vector2d at =
-      centre_of(saved(picture, "points.png")(cv::Rect(0, 80, 448, 400)), colours::kInk, &dark);
+  const Eigen::Vector2d at = centre_of(saved(picture, "points.png")(kInView), colours::kInk, &dark);
   EXPECT_EQ(dark, 1);
-  EXPECT_NEAR(at.x(), 24 + 15 * 20, 1);
+  EXPECT_NEAR(at.x() + kInView.x, kViewLeft + 15 * 20, 1);
 }
 
 TEST(Picture, TheSameCallsMakeTheSameFile) {
@@ -103,7 +124,7 @@ TEST(Picture, TheSameCallsMakeTheSameFile) {
         {{Mark::dot, colours::kInk, "points"}, {Mark::rectangle, colours::kBlue, "vehicle"}});
     const fs::path file = picture_file("same.png");
     picture.save(file);
-    return core::read_file(file);
+    return core::read_file(file) + core::read_file(svg_beside(file));
   };
   EXPECT_EQ(bytes(), bytes());
 }
@@ -128,6 +149,67 @@ TEST(Picture, StripsStandAboveTheViewInTheOrderInWhichTheyCame) {
   EXPECT_LT(blue.y(), purple.y());
   EXPECT_LT(purple.y(), green.y());
   EXPECT_GT(green.y(), without.y() + 200);
+}
+
+TEST(Picture, AxesStandAroundTheViewAndNothingIsDrawnOverThem) {
+  Picture picture(square(), 400);
+  const cv::Mat axes = saved(picture, "axes_alone.png");
+  picture.polyline(std::vector<Eigen::Vector2d>{{-40, 3}, {40, 3}}, colours::kOrange, 3);
+  const cv::Mat image = saved(picture, "axes_crossed.png");
+  cv::Mat difference;
+  cv::absdiff(axes, image, difference);
+  EXPECT_GT(cv::norm(difference, cv::NORM_INF), 100);
+  difference(cv::Rect(kViewLeft, kViewTop, 400, 400)).setTo(0);
+  EXPECT_EQ(cv::norm(difference, cv::NORM_INF), 0);
+}
+
+TEST(PictureSvg, ARectangleHasItsPlaceAndSize) {
+  Picture picture(square(), 800);
+  picture.rectangle({1, 2}, 0, 4, 2, colours::kOrange, 1);
+  const std::string svg = drawn(picture);
+  EXPECT_NE(svg.find("viewBox=\"0 0 900 1004\""), std::string::npos) << svg.substr(0, 400);
+  const double left = kViewLeft + 9 * 40, right = left + 4 * 40;
+  const double top = kViewTop + 7 * 40, bottom = top + 2 * 40;
+  const std::string corners = fmt::format(
+      "{1:.2f},{2:.2f} {0:.2f},{2:.2f} {0:.2f},{3:.2f} {1:.2f},{3:.2f}", left, right, top, bottom);
+  EXPECT_NE(svg.find("<polygon points=\"" + corners + "\""), std::string::npos) << corners;
+}
+
+TEST(PictureSvg, AxesSayMetresAndTextsAreTexts) {
+  Picture picture(square(), 800);
+  picture.title("a < b & c");
+  const std::string svg = drawn(picture);
+  for (const char* text : {">x, m<", ">y, m<", ">-10<", ">8<", ">2 m<"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+  EXPECT_NE(svg.find("<title>a &lt; b &amp; c</title>"), std::string::npos);
+  EXPECT_EQ(count_of(svg, "a &lt; b &amp; c</text>"), 1);
+  EXPECT_EQ(svg.find("a < b"), std::string::npos);
+}
+
+TEST(PictureSvg, ManyPointsAreOneImageBelowWhatIsDrawnLater) {
+  Picture picture(square(), 800);
+  core::Rng rng(1);
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 300000; ++i) points.emplace_back(rng.uniform(-10, 10), rng.uniform(-10, 10));
+  picture.points(points, colours::kInk);
+  picture.points(points, colours::kGreen);
+  picture.disc({0, 0}, 3, colours::kBlue);
+  const std::string svg = drawn(picture);
+  EXPECT_EQ(count_of(svg, "<image"), 1);
+  EXPECT_LT(svg.size(), 2'000'000U);
+  EXPECT_LT(svg.find("<image"), svg.find(fmt::format("cy=\"{:.1f}\"", kViewTop + 400.0)));
+}
+
+TEST(PictureSvg, StandsBesideThePngOrAlone) {
+  const fs::path file = picture_file("beside.png");
+  Picture(square()).save(file);
+  EXPECT_TRUE(fs::remove(file));
+  EXPECT_TRUE(fs::remove(svg_beside(file)));
+  Picture(square()).save(svg_beside(file));
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_EQ(core::read_file(svg_beside(file)).substr(0, 5), "<?xml");
+  fs::remove(svg_beside(file));
 }
 
 TEST(Picture, TheRampGrowsBrighterAndTakesAnyNumber) {

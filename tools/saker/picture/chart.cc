@@ -7,8 +7,6 @@
 namespace saker::tools {
 namespace {
 
-namespace colours = colours;
-
 // Of the drawing, in the picture's units.
 constexpr double kWidth = 16, kHeight = 9;
 constexpr double kLeft = 1.2, kBelow = 1.2, kRight = 0.4;  // margins for numbers and names
@@ -22,7 +20,7 @@ Extent extent() {
 }  // namespace
 
 Chart::Chart(const std::string& title, const Axis& x, const Axis& y)
-    : x_(x), y_(y), picture_(extent(), kLongest_px, ScaleBar::hidden) {
+    : x_(x), y_(y), picture_(extent(), kLongest_px, Axes::none) {
   picture_.title(title);
   draw_axes();
 }

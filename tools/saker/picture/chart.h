@@ -25,7 +25,7 @@ class Chart {
   void dots(std::span<const Eigen::Vector2d> points, Colour colour);
   void legend(const std::vector<LegendEntry>& entries) { picture_.legend(entries); }
 
-  /// PNG; throws Error where it cannot be written.
+  /// PNG and SVG; throws Error where it cannot be written.
   void save(const std::filesystem::path& file) const { picture_.save(file); }
 
  private:

@@ -9,8 +9,6 @@
 namespace saker::tools {
 namespace {
 
-namespace colours = colours;
-
 constexpr double kReach_m = 45;  // shown around the sensor
 constexpr Colour kOther{190, 196, 204};
 constexpr std::array<Colour, 4> kPointColours = {colours::kGreen, colours::kOrange,
@@ -56,8 +54,8 @@ void write_evaluation_picture(const std::filesystem::path& file, const Evaluated
                       colour_of(scan.box_verdicts[i]));
   }
   picture.disc(Eigen::Vector2d::Zero(), 5, colours::kYellow);
-  picture.title(fmt::format("scan {}: {} vehicle points right, {} missed, {} wrong", scan.name,
-                            scan.points[0].size(), scan.missed(), scan.wrong()));
+  picture.title(fmt::format("Scan {} from above: {} vehicle points right, {} missed, {} wrong",
+                            scan.name, scan.points[0].size(), scan.missed(), scan.wrong()));
   std::vector<LegendEntry> legend = {{Mark::dot, colours::kGreen, "vehicle, right"},
                                      {Mark::dot, colours::kOrange, "vehicle, missed"},
                                      {Mark::dot, colours::kPurple, "called vehicle, is none"},

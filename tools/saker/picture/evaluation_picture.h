@@ -35,7 +35,7 @@ class WorstScans {
   std::vector<EvaluatedScan> scans_;
 };
 
-/// PNG; throws Error where it cannot be written.
+/// PNG and SVG; throws Error where it cannot be written.
 void write_evaluation_picture(const std::filesystem::path& file, const EvaluatedScan& scan);
 
 }  // namespace saker::tools

@@ -13,8 +13,6 @@
 namespace saker::tools {
 namespace {
 
-namespace colours = colours;
-
 using Points = std::vector<Eigen::Vector2d>;
 
 constexpr Colour kColours[] = {colours::kBlue, colours::kOrange, colours::kGreen, colours::kPurple,
@@ -152,14 +150,14 @@ void write_error_picture(const std::filesystem::path& file, const std::vector<Ta
   Extent extent;
   extent.include({-kReach - 2 * kBin, -2 * kBin});
   extent.include({kReach + 2 * kBin, kHighest});
-  Picture picture(extent, 1000, ScaleBar::hidden);
+  Picture picture(extent, 1000, Axes::none);
   draw_error_axis(picture);
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (most > 0) picture.polyline(stairs(shares[i], kHighest / most), colour_of(i), 2);
     legend.push_back({Mark::line, colour_of(i), rows[i].policy});
   }
-  picture.title("length and width, mapped - true: share of errors by 5 cm");
+  picture.title("Length and width, mapped - true: share of errors by 5 cm");
   picture.legend(legend);
   picture.save(file);
 }
@@ -168,12 +166,12 @@ void write_trajectory_picture(const std::filesystem::path& file,
                               const std::vector<std::vector<TrajectoryPanel>>& rows,
                               const objects::ClassTable& table) {
   const Layout layout = laid_out(rows, table);
-  Picture picture(layout.extent, 2000);
+  Picture picture(layout.extent, 2000, Axes::scale);
   for (std::size_t i = 0; i < layout.panels.size(); ++i) {
     const auto& [drawn, shift] = layout.panels[i];
     draw_panel(picture, drawn, shift, colour_of(layout.columns[i]));
   }
-  picture.title("paths flown, policies side by side");
+  picture.title("Flown missions from above, policies side by side: path, targets, other vehicles");
   picture.legend({{Mark::rectangle, colours::kInk, "target"},
                   {Mark::rectangle, colours::kGrey, "other vehicle"}});
   picture.save(file);
@@ -187,7 +185,7 @@ void write_calibration_picture(const std::filesystem::path& file, const std::str
   Extent extent;
   extent.include({-0.1, -0.1});
   extent.include({1.1, 1.1});
-  Picture picture(extent, 900, ScaleBar::hidden);
+  Picture picture(extent, 900, Axes::none);
   picture.polyline(Points{{0, 1.1}, {0, 0}, {1.1, 0}}, colours::kInk, 1);
   for (const double ratio : {0.8, 1.0, 1.25}) {
     const double end = std::min(1.1, 1.1 / ratio);
@@ -196,8 +194,8 @@ void write_calibration_picture(const std::filesystem::path& file, const std::str
   for (const CalibrationBin& bin : bins) {
     picture.disc({scale * bin.predicted, scale * bin.realised}, 6, colours::kBlue);
   }
-  picture.title(
-      fmt::format("{}: realised (up) against predicted (right), largest {:.2f} m", policy, most));
+  picture.title(fmt::format(
+      "{}: size error, realised (up) against predicted (right), largest {:.2f} m", policy, most));
   picture.save(file);
 }
 

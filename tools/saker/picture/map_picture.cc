@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "tools/saker/picture/picture.h"
 
 namespace saker::tools {
 namespace {
-
-namespace colours = colours;
 
 constexpr double kMargin_m =
     15;  // shown around trajectory and objects: beyond it points say little
@@ -52,10 +52,17 @@ void draw(Picture& picture, const objects::Model& model, Colour colour, int widt
   }
 }
 
-std::string title_of(const MapView& view) {
+/// `Map from above: 3 vehicle, 2 trunk along 154 poses`.
+std::string title_of(const MapView& view, const objects::ClassTable& table) {
+  std::map<objects::ClassId, int> counts;
+  for (const objects::MapObject& object : view.map.objects) ++counts[object.class_id];
+  std::string title = "Map from above:";
+  for (const auto& [id, count] : counts) title += fmt::format(" {} {},", count, table[id].name);
+  if (counts.empty()) title += " no objects,";
+  title.pop_back();
   std::size_t poses = view.trajectory.size();
   for (const RobotPath& robot : view.robots) poses += robot.positions.size();
-  return fmt::format("{} objects along {} poses", view.map.objects.size(), poses);
+  return title + fmt::format(" along {} poses", poses);
 }
 
 std::vector<LegendEntry> legend_of(const MapView& view) {
@@ -96,7 +103,7 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
   for (const objects::MapObject& object : view.map.objects) {
     draw(picture, object.model, colour_of(table[object.class_id]), 2);
   }
-  picture.title(title_of(view));
+  picture.title(title_of(view, table));
   picture.legend(legend_of(view));
   picture.save(file);
 }

@@ -26,8 +26,8 @@ struct MapView {
   std::vector<Eigen::Vector3d> cloud{};       ///< drawn thinly
 };
 
-/// Writes a PNG: points, trajectory, objects with their class, the outlines of the true ones.
-/// Throws Error.
+/// Writes a PNG and an SVG: points, trajectory, objects with their class, the outlines of the true
+/// ones. Throws Error.
 void write_map_picture(const std::filesystem::path& file, const MapView& view,
                        const objects::ClassTable& table);
 

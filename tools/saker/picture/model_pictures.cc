@@ -19,7 +19,6 @@
 namespace saker::tools {
 namespace {
 
-namespace colours = colours;
 using Points = std::vector<Eigen::Vector2d>;
 using uncertainty::Model;
 using uncertainty::View;

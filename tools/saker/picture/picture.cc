@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "saker/core/files.h"
 
@@ -16,31 +13,15 @@ namespace {
 constexpr int kMarginPx = 24;
 constexpr int kTitlePx = 56;
 constexpr int kLegendPx = 64;
-constexpr int kStripCaptionPx = 30;
-constexpr int kLeastStripPx = 128;
-constexpr int kLeastWidthPx = 640;  // room for the legend beside a narrow map
-constexpr int kShift = 4;           // OpenCV draws at 1/16 px
-constexpr double kTextScale = 0.5;
-constexpr double kFarPx = 20000;  // beyond, OpenCV's fixed point would overflow
-
-cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }
-
-cv::Point fixed(const Eigen::Vector2d& pixel) {
-  const Eigen::Vector2d near = pixel.cwiseMax(-kFarPx).cwiseMin(kFarPx);
-  return {static_cast<int>(std::lround(near.x() * (1 << kShift))),
-          static_cast<int>(std::lround(near.y() * (1 << kShift)))};
-}
-
-void put_text(cv::Mat& image, const Eigen::Vector2d& at, const std::string& text, Colour colour,
-              double scale = kTextScale) {
-  const cv::Point place(static_cast<int>(at.x()), static_cast<int>(at.y()));
-  cv::putText(image, text, place, cv::FONT_HERSHEY_SIMPLEX, scale, bgr(colour), 1, cv::LINE_AA);
-}
-
-int text_width(const std::string& text) {
-  int baseline = 0;
-  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kTextScale, 1, &baseline).width;
-}
+constexpr int kAxisLeftPx = 40;      // room for the numbers of y
+constexpr int kAxisBelowPx = 36;     // for those of x, and its name
+constexpr int kTickPx = 6;           // its length
+constexpr int kLeastWidthPx = 900;   // room for title and legend of a narrow map
+constexpr double kTicks = 8;         // at most, about, along the longer side
+constexpr double kFarPx = 20000;     // a radius beyond shows no bend
+constexpr double kSmallTextPx = 11;  // of numbers, and of names in the view
+constexpr double kTextPx = 13;
+constexpr Colour kFrame = colours::kGrey;
 
 /// The longest of 1, 2, 5 × 10ⁿ that is at most `most`.
 double round_length(double most) {
@@ -51,20 +32,25 @@ double round_length(double most) {
   return decade;
 }
 
-/// Lets every pixel fade from white to the colour by what fell on it.
-void blend(cv::Mat& image, const cv::Mat& counts, Colour colour, double strength) {
-  const double target[3] = {double(colour.blue), double(colour.green), double(colour.red)};
-  for (int v = 0; v < image.rows; ++v) {
-    for (int u = 0; u < image.cols; ++u) {
-      const int count = counts.at<std::uint16_t>(v, u);
-      if (count == 0) continue;
-      const double opacity = 1 - std::pow(1 - strength, count);
-      auto& pixel = image.at<cv::Vec3b>(v, u);
-      for (int i = 0; i < 3; ++i) {
-        pixel[i] = static_cast<std::uint8_t>(pixel[i] + opacity * (target[i] - pixel[i]));
-      }
-    }
-  }
+/// Multiples of `step` in [low, high].
+std::vector<double> multiples(double step, double low, double high) {
+  std::vector<double> values;
+  const auto first = static_cast<long>(std::ceil(low / step - 1e-9));
+  const auto last = static_cast<long>(std::floor(high / step + 1e-9));
+  for (long i = first; i <= last; ++i) values.push_back(static_cast<double>(i) * step);
+  return values;
+}
+
+Page page_of(const Eigen::Vector2d& size, double px_per_m, Axes axes) {
+  Page page;
+  page.view_left = kMarginPx + (axes == Axes::metres ? kAxisLeftPx : 0);
+  page.view_top = kTitlePx + kMarginPx;
+  page.view_width = static_cast<int>(std::ceil(size.x() * px_per_m));
+  page.view_height = static_cast<int>(std::ceil(size.y() * px_per_m));
+  page.width = std::max(page.view_left + page.view_width + kMarginPx, kLeastWidthPx);
+  page.height = page.view_top + page.view_height + kMarginPx + kLegendPx +
+                (axes == Axes::metres ? kAxisBelowPx : 0);
+  return page;
 }
 
 }  // namespace
@@ -92,54 +78,49 @@ Extent Extent::grown(double margin_m) const {
   return {low.array() - margin_m, high.array() + margin_m};
 }
 
-Picture::Picture(const Extent& extent, int longest_px, ScaleBar scale_bar) : extent_(extent) {
+Picture::Picture(const Extent& extent, int longest_px, Axes axes) : extent_(extent) {
   if (extent_.empty()) extent_ = {Eigen::Vector2d::Constant(-10), Eigen::Vector2d::Constant(10)};
-  const Eigen::Vector2d size = (extent_.high - extent_.low).cwiseMax(1.0);
+  extent_.high = extent_.high.cwiseMax(extent_.low + Eigen::Vector2d::Ones());
+  const Eigen::Vector2d size = extent_.high - extent_.low;
   px_per_m_ = longest_px / size.maxCoeff();
-  drawn_width_px_ = static_cast<int>(std::ceil(size.x() * px_per_m_));
-  drawn_height_px_ = static_cast<int>(std::ceil(size.y() * px_per_m_));
-  const int width = std::max(drawn_width_px_, kLeastWidthPx) + 2 * kMarginPx;
-  const int height = drawn_height_px_ + kTitlePx + kLegendPx + 2 * kMarginPx;
-  image_ = std::make_unique<cv::Mat>(height, width, CV_8UC3, cv::Scalar(255, 255, 255));
-  strips_ = std::make_unique<cv::Mat>();
-  if (scale_bar == ScaleBar::shown) draw_scale_bar();
+  page_ = page_of(size, px_per_m_, axes);
+  png_ = make_png_canvas(page_);
+  svg_ = make_svg_canvas(page_);
+  if (axes == Axes::metres) draw_axes();
+  if (axes != Axes::none) draw_scale();
 }
 
-Picture::~Picture() = default;
-
 Eigen::Vector2d Picture::pixel(const Eigen::Vector2d& p) const {
-  return {kMarginPx + (p.x() - extent_.low.x()) * px_per_m_,
-          kTitlePx + kMarginPx + (extent_.high.y() - p.y()) * px_per_m_};
+  return {page_.view_left + (p.x() - extent_.low.x()) * px_per_m_,
+          page_.view_top + (extent_.high.y() - p.y()) * px_per_m_};
+}
+
+bool Picture::inside(const Eigen::Vector2d& p) const {
+  return p.allFinite() && (p.array() >= extent_.low.array()).all() &&
+         (p.array() <= extent_.high.array()).all();
 }
 
 void Picture::points(std::span<const Eigen::Vector2d> points, Colour colour, double strength) {
-  cv::Mat counts = cv::Mat::zeros(image_->size(), CV_16UC1);
+  std::vector<Eigen::Vector2d> places;
   for (const Eigen::Vector2d& p : points) {
-    const Eigen::Vector2d at = pixel(p);
-    if (!p.allFinite() || (p.array() < extent_.low.array()).any() ||
-        (p.array() > extent_.high.array()).any()) {
-      continue;
-    }
-    auto& count = counts.at<std::uint16_t>(static_cast<int>(at.y()), static_cast<int>(at.x()));
-    if (count < 0xFFFF) ++count;
+    if (inside(p)) places.push_back(pixel(p));
   }
-  blend(*image_, counts, colour, strength);
+  on_all(true, [&](Canvas& canvas) { canvas.points(places, colour, strength); });
 }
 
 void Picture::disc(const Eigen::Vector2d& centre, double radius_px, Colour colour) {
   if (!centre.allFinite()) return;
-  const int radius = static_cast<int>(std::lround(radius_px * (1 << kShift)));
-  cv::circle(*image_, fixed(pixel(centre)), radius, bgr(colour), cv::FILLED, cv::LINE_AA, kShift);
+  on_all(true, [&](Canvas& canvas) { canvas.disc(pixel(centre), radius_px, colour); });
 }
 
 void Picture::stroke(std::span<const Eigen::Vector2d> pixels, Colour colour, int width_px,
                      bool closed) {
-  std::vector<cv::Point> corners;
+  std::vector<Eigen::Vector2d> corners;
   for (const Eigen::Vector2d& p : pixels) {
-    if (p.allFinite()) corners.push_back(fixed(p));
+    if (p.allFinite()) corners.push_back(p);
   }
   if (corners.size() < 2) return;
-  cv::polylines(*image_, corners, closed, bgr(colour), width_px, cv::LINE_AA, kShift);
+  on_all(true, [&](Canvas& canvas) { canvas.stroke(corners, colour, width_px, closed); });
 }
 
 void Picture::polyline(std::span<const Eigen::Vector2d> points, Colour colour, int width_px) {
@@ -162,89 +143,109 @@ void Picture::circle(const Eigen::Vector2d& centre, double radius, Colour colour
                      double least_radius_px) {
   if (!centre.allFinite() || !std::isfinite(radius)) return;
   const double radius_px = std::clamp(radius * px_per_m_, least_radius_px, kFarPx);
-  cv::circle(*image_, fixed(pixel(centre)),
-             static_cast<int>(std::lround(radius_px * (1 << kShift))), bgr(colour), width_px,
-             cv::LINE_AA, kShift);
+  on_all(true, [&](Canvas& canvas) { canvas.circle(pixel(centre), radius_px, colour, width_px); });
 }
 
 void Picture::text(const Eigen::Vector2d& at, const std::string& text, Colour colour) {
-  if (at.allFinite()) put_text(*image_, pixel(at), text, colour, 0.8 * kTextScale);
+  if (!inside(at)) return;
+  on_all(false,
+         [&](Canvas& canvas) { canvas.text(pixel(at), text, colour, {.size_px = kSmallTextPx}); });
 }
 
 void Picture::title(const std::string& text) {
-  put_text(*image_, {kMarginPx, kTitlePx - 16}, text, colours::kInk, 0.7);
+  on_all(false, [&](Canvas& canvas) { canvas.title({page_.view_left, kTitlePx - 16}, text); });
 }
 
-void Picture::draw_scale_bar() {
-  const double length = round_length(0.2 * (extent_.high - extent_.low).cwiseMax(1.0).maxCoeff());
-  const double right = image_->cols - kMarginPx, left = right - length * px_per_m_;
-  const double y = image_->rows - kMarginPx - 8;
-  stroke(std::vector<Eigen::Vector2d>{{left, y - 5}, {left, y}, {right, y}, {right, y - 5}},
-         colours::kInk, 2, false);
-  const std::string label = fmt::format("{:g} m", length);
-  put_text(*image_, {0.5 * (left + right - text_width(label)), y - 10}, label, colours::kInk);
+void Picture::draw_axes() {
+  const double left = page_.view_left, right = left + page_.view_width;
+  const double top = page_.view_top, bottom = top + page_.view_height;
+  const double step = round_length((extent_.high - extent_.low).maxCoeff() / kTicks * 1.5);
+  const auto draw = [&](Canvas& canvas) {
+    const auto tick = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+      canvas.stroke(std::vector<Eigen::Vector2d>{from, to}, kFrame, 1, false);
+    };
+    canvas.stroke(
+        std::vector<Eigen::Vector2d>{{left, top}, {right, top}, {right, bottom}, {left, bottom}},
+        kFrame, 1, true);
+    for (const double x : multiples(step, extent_.low.x(), extent_.high.x())) {
+      const double u = pixel({x, 0}).x();
+      tick({u, bottom}, {u, bottom + kTickPx});
+      canvas.text({u, bottom + kTickPx + 12}, fmt::format("{:g}", x), colours::kInk,
+                  {.size_px = kSmallTextPx, .anchor = Anchor::middle});
+    }
+    for (const double y : multiples(step, extent_.low.y(), extent_.high.y())) {
+      const double v = pixel({0, y}).y();
+      tick({left - kTickPx, v}, {left, v});
+      canvas.text({left - kTickPx - 3, v + 4}, fmt::format("{:g}", y), colours::kInk,
+                  {.size_px = kSmallTextPx, .anchor = Anchor::right});
+    }
+    canvas.text({0.5 * (left + right), bottom + kAxisBelowPx}, "x, m", colours::kInk,
+                {.size_px = kTextPx, .anchor = Anchor::middle});
+    canvas.text({left, top - 8}, "y, m", colours::kInk,
+                {.size_px = kTextPx, .anchor = Anchor::middle});
+  };
+  on_all(false, draw);
+}
+
+void Picture::draw_scale() {
+  const double length = round_length(0.2 * (extent_.high - extent_.low).maxCoeff());
+  const double right = page_.width - kMarginPx, left = right - length * px_per_m_;
+  const double y = page_.height - kMarginPx - 8;
+  const std::vector<Eigen::Vector2d> bar = {{left, y - 5}, {left, y}, {right, y}, {right, y - 5}};
+  on_all(false, [&](Canvas& canvas) {
+    canvas.stroke(bar, colours::kInk, 2, false);
+    canvas.text({0.5 * (left + right), y - 10}, fmt::format("{:g} m", length), colours::kInk,
+                {.size_px = kTextPx, .anchor = Anchor::middle});
+  });
 }
 
 void Picture::draw_mark(const LegendEntry& entry, const Eigen::Vector2d& at_px) {
   const Eigen::Vector2d across(10, 0), up(0, 5);
-  switch (entry.mark) {
-    case Mark::dot:
-      cv::circle(*image_, fixed(at_px), 3 << kShift, bgr(entry.colour), cv::FILLED, cv::LINE_AA,
-                 kShift);
-      break;
-    case Mark::ring:
-      cv::circle(*image_, fixed(at_px), 5 << kShift, bgr(entry.colour), 2, cv::LINE_AA, kShift);
-      break;
-    case Mark::line:
-      stroke(std::vector<Eigen::Vector2d>{at_px - across, at_px + across}, entry.colour, 2, false);
-      break;
-    case Mark::rectangle:
-      stroke(std::vector<Eigen::Vector2d>{at_px - across - up, at_px + across - up,
-                                          at_px + across + up, at_px - across + up},
-             entry.colour, 2, true);
-      break;
-  }
+  on_all(false, [&](Canvas& canvas) {
+    switch (entry.mark) {
+      case Mark::dot:
+        canvas.disc(at_px, 3, entry.colour);
+        break;
+      case Mark::ring:
+        canvas.circle(at_px, 5, entry.colour, 2);
+        break;
+      case Mark::line:
+        canvas.stroke(std::vector<Eigen::Vector2d>{at_px - across, at_px + across}, entry.colour, 2,
+                      false);
+        break;
+      case Mark::rectangle:
+        canvas.stroke(std::vector<Eigen::Vector2d>{at_px - across - up, at_px + across - up,
+                                                   at_px + across + up, at_px - across + up},
+                      entry.colour, 2, true);
+        break;
+    }
+  });
 }
 
 void Picture::legend(const std::vector<LegendEntry>& entries) {
-  Eigen::Vector2d at(kMarginPx + 10, image_->rows - kMarginPx - 12);
+  Eigen::Vector2d at(page_.view_left + 10, page_.height - kMarginPx - 12);
   for (const LegendEntry& entry : entries) {
     draw_mark(entry, at);
-    put_text(*image_, at + Eigen::Vector2d(18, 5), entry.text, colours::kInk);
-    at.x() += 18 + text_width(entry.text) + 34;
+    on_all(false, [&](Canvas& canvas) {
+      canvas.text(at + Eigen::Vector2d(18, 5), entry.text, colours::kInk, {.size_px = kTextPx});
+    });
+    at.x() += 18 + text_width_px(entry.text, kTextPx) + 34;
   }
 }
 
 void Picture::strip(const Raster& raster, const std::string& caption) {
   if (raster.pixels.empty()) return;
-  cv::Mat pixels(raster.rows, raster.columns, CV_8UC3);
-  for (int v = 0; v < raster.rows; ++v) {
-    for (int u = 0; u < raster.columns; ++u) {
-      const Colour c = raster.pixels[static_cast<std::size_t>(v) * raster.columns + u];
-      pixels.at<cv::Vec3b>(v, u) = {c.blue, c.green, c.red};
-    }
-  }
-  const int width = image_->cols - 2 * kMarginPx;
-  const int height = raster.rows * std::max(1, kLeastStripPx / raster.rows);
-  cv::Mat framed(height + kStripCaptionPx, image_->cols, CV_8UC3, cv::Scalar(255, 255, 255));
-  cv::resize(pixels, framed(cv::Rect(kMarginPx, kStripCaptionPx, width, height)), {width, height},
-             0, 0, cv::INTER_NEAREST);
-  put_text(framed, {kMarginPx, kStripCaptionPx - 8}, caption, colours::kInk);
-  if (strips_->empty()) {
-    *strips_ = framed;
-  } else {
-    cv::vconcat(*strips_, framed, *strips_);
-  }
+  on_all(false, [&](Canvas& canvas) { canvas.strip(raster, caption); });
 }
 
 void Picture::save(const std::filesystem::path& file) const {
-  std::vector<std::uint8_t> bytes;
-  cv::Mat whole = *image_;
-  if (!strips_->empty()) cv::vconcat(*strips_, *image_, whole);
-  cv::imencode(".png", whole, bytes);
-  core::OutputFile out(file);
-  out.write(std::span<const std::uint8_t>(bytes));
-  out.finish();
+  const std::filesystem::path svg = svg_beside(file);
+  if (file != svg) core::write_file(file, png_->encoded());
+  core::write_file(svg, svg_->encoded());
+}
+
+std::filesystem::path svg_beside(const std::filesystem::path& file) {
+  return std::filesystem::path(file).replace_extension(".svg");
 }
 
 }  // namespace saker::tools

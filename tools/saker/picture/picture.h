@@ -7,17 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "saker/core/colour.h"
-
-namespace cv {
-class Mat;
-}
+#include "tools/saker/picture/canvas.h"
 
 /// Pictures of a plane in metres: what maps and scans look like from above.
 namespace saker::tools {
-
-using core::Colour;
-namespace colours = core::colours;
 
 /// From 0 (dark blue) over green to 1 (yellow): quantities such as a range.
 [[nodiscard]] Colour ramp(double fraction);
@@ -32,7 +25,8 @@ struct Extent {
   [[nodiscard]] Extent grown(double margin_m) const;
 };
 
-enum class ScaleBar { shown, hidden };
+/// metres: x and y with their numbers, and a scale; scale: this alone, where places mean nothing.
+enum class Axes { metres, scale, none };
 
 enum class Mark { dot, line, rectangle, ring };
 
@@ -42,24 +36,13 @@ struct LegendEntry {
   std::string text;
 };
 
-/// Rows × columns of colours, row-major.
-struct Raster {
-  int rows = 0;
-  int columns = 0;
-  std::vector<Colour> pixels;
-};
-
-/// A top view on white, x to the right, y up, a title above, legend and scale bar below. Lengths
-/// are metres but those that end in _px. Texts are ASCII. What is not finite or lies outside is not
-/// drawn. The same calls make the same file.
+/// A top view on white, x to the right, y up, a title above, axes around, legend and scale below.
+/// Lengths are metres but those that end in _px. Texts are ASCII. What is not finite or lies
+/// outside is not drawn. The same calls make the same files.
 class Picture {
  public:
   /// \param longest_px  of the drawn extent's sides; an empty extent shows 10 m around the origin.
-  explicit Picture(const Extent& extent, int longest_px = 1400,
-                   ScaleBar scale_bar = ScaleBar::shown);
-  ~Picture();
-  Picture(const Picture&) = delete;
-  Picture& operator=(const Picture&) = delete;
+  explicit Picture(const Extent& extent, int longest_px = 1400, Axes axes = Axes::metres);
 
   /// Thinly: the more points fall on a pixel, the nearer it gets to the colour.
   void points(std::span<const Eigen::Vector2d> points, Colour colour, double strength = 0.25);
@@ -80,21 +63,34 @@ class Picture {
   /// put there before.
   void strip(const Raster& raster, const std::string& caption);
 
-  /// PNG; throws Error where it cannot be written.
+  /// A PNG, and an SVG beside it (`svg_beside`); SVG alone where the file's name ends so. Throws
+  /// Error where they cannot be written.
   void save(const std::filesystem::path& file) const;
 
  private:
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector2d& p) const;
+  [[nodiscard]] bool inside(const Eigen::Vector2d& p) const;
   void stroke(std::span<const Eigen::Vector2d> pixels, Colour colour, int width_px, bool closed);
-  void draw_scale_bar();
+  void draw_axes();
+  void draw_scale();
   void draw_mark(const LegendEntry& entry, const Eigen::Vector2d& at_px);
+
+  /// The same call to each canvas.
+  template <class Call>
+  void on_all(bool in_view, Call call) {
+    for (const auto& canvas : {png_.get(), svg_.get()}) {
+      canvas->clip(in_view);
+      call(*canvas);
+    }
+  }
 
   Extent extent_;
   double px_per_m_;
-  int drawn_width_px_;
-  int drawn_height_px_;
-  std::unique_ptr<cv::Mat> image_;
-  std::unique_ptr<cv::Mat> strips_;
+  Page page_;
+  std::unique_ptr<Canvas> png_, svg_;
 };
+
+/// The SVG that goes with a picture: of the same name, with another ending.
+[[nodiscard]] std::filesystem::path svg_beside(const std::filesystem::path& file);
 
 }  // namespace saker::tools

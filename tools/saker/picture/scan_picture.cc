@@ -9,8 +9,6 @@
 namespace saker::tools {
 namespace {
 
-namespace colours = colours;
-
 constexpr double kReach_m = 40;     // shown around the sensor: farther out points are too sparse
 constexpr double kFarRange_m = 60;  // brightest
 constexpr Colour kNoReturn{255, 255, 255};

@@ -20,8 +20,8 @@ struct ScanView {
   const objects::Detections& detections;
 };
 
-/// Writes a PNG: the range image by range and by class, below it the window's points from above
-/// with the fitted models and the ground planes. Throws Error.
+/// Writes a PNG and an SVG: the range image by range and by class, below it the window's points
+/// from above with the fitted models and the ground planes. Throws Error.
 void write_scan_picture(const std::filesystem::path& file, const ScanView& view,
                         const objects::ClassTable& table);
 

@@ -8,6 +8,7 @@
 #include "saker/lidar/recording.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
+#include "tools/saker/picture/picture.h"
 #include "tools/saker/picture/scan_picture.h"
 
 namespace saker::tools {
@@ -68,7 +69,7 @@ std::string title_of(const lidar::Frame& frame, const objects::Detections& detec
                      const objects::ClassTable& table) {
   std::vector<int> counts(table.size());
   for (const objects::Measurement& m : detections.measurements) ++counts[m.class_id];
-  std::string title = "scan " + frame.name;
+  std::string title = "Scan " + frame.name + " and its window from above";
   for (int id = 0; id < table.size(); ++id) {
     if (counts[id] > 0) {
       title += fmt::format(", {} {}", counts[id], table[static_cast<objects::ClassId>(id)].name);
@@ -81,6 +82,7 @@ int view(const ViewOptions& options, const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common).autonomy;
   detection::Detection detection(config.detection, config.objects);
   const std::filesystem::path file = output_file(common.out, common.force);
+  (void)output_file(svg_beside(file), common.force);
   const auto frames = read_frames(options, from_seconds(config.detection.window_s + kRunUp_s));
   const auto window = labelled_window(frames, config);
   if (window.empty() || window.back().stamp != frames.back().scan.stamp) {
