@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "saker/core/rng.h"
 #include "lidar/made_scan.h"
+#include "saker/core/rng.h"
 
 namespace saker::segmentation {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "lidar/made_scan.h"
 #include "saker/core/config_folder.h"
 #include "saker/core/error.h"
-#include "lidar/made_scan.h"
 
 namespace saker::segmentation {
 namespace {

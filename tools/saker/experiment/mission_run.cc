@@ -77,7 +77,7 @@ std::vector<int> reachable_of(const MissionRun& run, const Task& task,
                              .fence = config.motion.geofence,
                              .radius_m = run.site.airframe.radius_m};
   return reachable_targets(task.targets, vehicle.true_map(), space,
-                           autonomy::active_as_mounted(config).view);
+                           autonomy::active_as_flown(config, vehicle.sensor()).view);
 }
 
 std::string policy_of(const MissionRun& run) {

@@ -40,7 +40,7 @@ class ViewpointSearch {
                           const objects::Cuboid& target) const {
     const Eigen::Vector3d to = target.pose.translation() - eye;
     const double elevation = std::atan2(to.z(), to.head<2>().norm());
-    const double yaw = bearing + std::numbers::pi - active::looks_to(elevation, view_);
+    const double yaw = bearing + std::numbers::pi - active::viewing_azimuth(elevation, view_);
     return fence_.contains(eye) && active::in_field_of_view(eye, yaw, target, view_, 0) &&
            clear(eye) && in_sight(eye, to, id);
   }
