@@ -33,7 +33,9 @@ struct Trunk {
 CylinderFit fitted(const Points& points, const Eigen::Vector3d& sensor = kSensor) {
   const auto fit = fit_cylinder(points, sensor, {});
   EXPECT_TRUE(fit.has_value());
-  return fit.value_or(CylinderFit{});
+  CylinderFit none;
+  none.covariance.setConstant(NAN);
+  return fit.value_or(none);
 }
 
 TEST(CylinderFit, WithoutNoiseIsTheTruth) {

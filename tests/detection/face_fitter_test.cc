@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "made_scene.h"
+#include "saker/detection/size_prior.h"
 
 namespace saker::detection {
 namespace {
@@ -42,7 +43,7 @@ struct BoxView {
     const Beams beams = testing::ground_beams(sensor, {box}, 4000);
     const Sight sight{{sensor}, beams, surroundings, SE3::Identity()};
     const VehicleView view{places, static_cast<int>(places.size()), box.height, sight};
-    const FaceFitter fitter(flat(), kHighest);
+    const FaceFitter fitter(flat(), kHighest, vehicle_kinds({}));
     return fitter.fit(view, fitter.outline(view));
   }
 
@@ -50,7 +51,7 @@ struct BoxView {
     const Beams beams;
     const Sight sight{{sensor}, beams, surroundings, SE3::Identity()};
     const VehicleView view{places, static_cast<int>(places.size()), box.height, sight};
-    return FaceFitter(flat(), kHighest).outline(view);
+    return FaceFitter(flat(), kHighest, vehicle_kinds({})).outline(view);
   }
 };
 

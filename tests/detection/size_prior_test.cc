@@ -29,9 +29,17 @@ TEST(SizePrior, WeightsAreThoseOfAllVehicles) {
   EXPECT_NEAR(sum, 1, 1e-9);
 }
 
+objects::ObjectClass bin() {
+  objects::ObjectClass bin;
+  bin.name = "bin";
+  bin.shape = objects::Shape::cuboid;
+  bin.label_ids = {1};
+  return bin;
+}
+
 TEST(SizePrior, KindsAreThoseOfTheCuboidClasses) {
   objects::ClassTable table;
-  table.classes.push_back({.name = "bin", .shape = objects::Shape::cuboid, .label_ids = {1}});
+  table.classes.push_back(bin());
   EXPECT_EQ(vehicle_kinds(table).size(), kKinds.size());
   table.classes.back().kinds = {
       {.name = "wheeled", .length_m = {1.2, 0.1}, .width_m = {0.9, 0.1}, .height_m = {1.1, 0.1}}};
@@ -45,10 +53,9 @@ TEST(SizePrior, KindsAreThoseOfTheCuboidClasses) {
 
 TEST(SizePrior, AKindWithoutADeviationIsRefused) {
   objects::ClassTable table;
-  table.classes.push_back(
-      {.name = "bin",
-       .shape = objects::Shape::cuboid,
-       .kinds = {{.name = "b", .length_m = {1.2}, .width_m = {1, 1}, .height_m = {1, 1}}}});
+  table.classes.push_back(bin());
+  table.classes.back().kinds = {
+      {.name = "b", .length_m = {1.2}, .width_m = {1, 1}, .height_m = {1, 1}}};
   EXPECT_THROW((void)vehicle_kinds(table), Error);
 }
 
