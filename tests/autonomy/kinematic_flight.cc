@@ -24,6 +24,12 @@ objects::ObjectMap prior_of(const std::vector<Eigen::Vector3d>& places) {
   return prior;
 }
 
+active::ActiveConfig visits() {
+  active::ActiveConfig config;
+  config.policy = active::PolicyName::visit;
+  return config;
+}
+
 }  // namespace
 
 occupancy::OccupancyGrid free_block(double half_m) {
@@ -53,8 +59,8 @@ void fill(occupancy::OccupancyGrid& grid, const Eigen::Vector3d& low, const Eige
 KinematicFlight::KinematicFlight(const std::vector<Eigen::Vector3d>& targets,
                                  std::shared_ptr<const occupancy::OccupancyGrid> grid)
     : grid_(std::move(grid)),
-      planning_({}, {.policy = active::PolicyName::visit}, {}, objects::ClassTable{},
-                prior_of(targets), MissionConfig{}.height_m),
+      planning_({}, visits(), {}, objects::ClassTable{}, prior_of(targets),
+                MissionConfig{}.height_m),
       guidance_(GuidanceConfig{}),
       supervisor_({}, {}, planning_.geofence()) {
   vehicle_.battery_share = 1;

@@ -91,7 +91,8 @@ TEST(Planning, EndsWhenNoTrajectoryIsEverClear) {
 }
 
 active::ActiveConfig with_lidar_turned(double degrees, const Eigen::Vector3d& axis) {
-  active::ActiveConfig active{.policy = active::PolicyName::visit};
+  active::ActiveConfig active;
+  active.policy = active::PolicyName::visit;
   active.view.R_body_lidar =
       Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis).toRotationMatrix();
   return active;

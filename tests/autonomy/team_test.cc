@@ -11,7 +11,11 @@ namespace saker::autonomy {
 namespace {
 
 const objects::ClassTable kTable;
-const slam::SlamConfig kSlam{.measurement_noise = slam::NoiseSource::fixed};
+const slam::SlamConfig kSlam = [] {
+  slam::SlamConfig config;
+  config.measurement_noise = slam::NoiseSource::fixed;
+  return config;
+}();
 const active::TargetsConfig kTargets;
 const core::Budget kPlenty = core::Budget::iterations(kMergeIterations);
 constexpr double kWell = 0.05, kBadly = 0.6;  // m: sd of a measured size

@@ -29,17 +29,16 @@ TEST(SizePrior, WeightsAreThoseOfAllVehicles) {
   EXPECT_NEAR(sum, 1, 1e-9);
 }
 
-objects::ObjectClass bin() {
-  objects::ObjectClass bin;
+objects::ClassTable with_bins() {
+  objects::ClassTable table;
+  objects::ObjectClass& bin = table.classes.emplace_back();
   bin.name = "bin";
   bin.shape = objects::Shape::cuboid;
-  bin.label_ids = {1};
-  return bin;
+  return table;
 }
 
 TEST(SizePrior, KindsAreThoseOfTheCuboidClasses) {
-  objects::ClassTable table;
-  table.classes.push_back(bin());
+  objects::ClassTable table = with_bins();
   EXPECT_EQ(vehicle_kinds(table).size(), kKinds.size());
   table.classes.back().kinds = {
       {.name = "wheeled", .length_m = {1.2, 0.1}, .width_m = {0.9, 0.1}, .height_m = {1.1, 0.1}}};
@@ -52,10 +51,9 @@ TEST(SizePrior, KindsAreThoseOfTheCuboidClasses) {
 }
 
 TEST(SizePrior, AKindWithoutADeviationIsRefused) {
-  objects::ClassTable table;
-  table.classes.push_back(bin());
+  objects::ClassTable table = with_bins();
   table.classes.back().kinds = {
-      {.name = "b", .length_m = {1.2}, .width_m = {1, 1}, .height_m = {1, 1}}};
+      {.name = "wheeled", .length_m = {1.2}, .width_m = {0.9, 0.1}, .height_m = {1.1, 0.1}}};
   EXPECT_THROW((void)vehicle_kinds(table), Error);
 }
 
