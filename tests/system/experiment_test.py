@@ -1,23 +1,18 @@
-""
-    "`saker experiment` through the program: what it leaves, that it goes on, and what it refuses."
-    ""
+"""`saker experiment` through the program: what it leaves, that it goes on, and what it refuses."""
 
-    import json import unittest
+import json
+import unittest
 
-        from program import ProgramTest,
-    saker
+from program import ProgramTest, saker
 
-        SITE =
-            ""
-            "kind: mission
-    mission : site : {targets : 3} capture : {
-columns:
-  512
-}
+SITE = """kind: mission
+mission:
+  site: {targets: 3}
+  capture: {columns: 512}
 """
-#Ends on the ground after a second : nothing has come from the sensor's pipeline by then.
+# Ends on the ground after a second: nothing has come from the sensor's pipeline by then.
 AT_ONCE = ("--set", "mission.preflight_s=1")
-LEFT = {"detections.jsonl", "experiment.json", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "map.svg", "odometry.txt", "prior.json",
+LEFT = {"detections.jsonl", "experiment.json", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
         "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
         "truth.json", "viewpoints.csv", "viewpoints.txt"}
 
@@ -60,8 +55,7 @@ class Experiment(ProgramTest):
         """What does not depend on how fast it was."""
         names = ("experiment.json", "map.smap", "odometry.txt", "prior.json", "table.txt", "truth.json")
         files = [p for p in sorted(out.rglob("*")) if p.name in names]
-        return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]
-}
+        return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]}
 
     def test_side_by_side_and_after_an_interruption_all_bytes_are_the_same(self):
         several = ("--runs", "3")
