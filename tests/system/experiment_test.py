@@ -12,7 +12,7 @@ mission:
 """
 # Ends on the ground after a second: nothing has come from the sensor's pipeline by then.
 AT_ONCE = ("--set", "mission.preflight_s=1")
-LEFT = {"detections.jsonl", "experiment.json", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "odometry.txt", "prior.json",
+LEFT = {"detections.jsonl", "experiment.json", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "map.svg", "odometry.txt", "prior.json",
         "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
         "truth.json", "viewpoints.csv", "viewpoints.txt"}
 
@@ -53,7 +53,7 @@ class Experiment(ProgramTest):
 
     def bytes_of(self, out):
         """What does not depend on how fast it was."""
-        names = ("experiment.json", "map.smap", "odometry.txt", "prior.json", "table.txt", "truth.json")
+        names = ("experiment.json", "map.smap", "map.svg", "odometry.txt", "prior.json", "table.txt", "truth.json")
         files = [p for p in sorted(out.rglob("*")) if p.name in names]
         return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]}
 
