@@ -53,7 +53,7 @@ class Experiment(ProgramTest):
 
     def bytes_of(self, out):
         """What does not depend on how fast it was."""
-        names = ("experiment.json", "map.smap", "map.svg", "odometry.txt", "prior.json", "table.txt", "truth.json")
+        names = ("experiment.json", "map.smap", "odometry.txt", "prior.json", "table.txt", "truth.json")
         files = [p for p in sorted(out.rglob("*")) if p.name in names]
         return {str(p.relative_to(out)): p.read_bytes() for p in [*files, out / "results.json"]}
 
