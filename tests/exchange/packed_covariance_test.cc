@@ -101,7 +101,9 @@ TEST(PackedSd, RisesWithItsByteAndEveryByteIsItsOwn) {
   for (int byte = 0; byte < 256; ++byte) {
     const double sd = unpacked_sd(static_cast<std::uint8_t>(byte));
     EXPECT_EQ(packed_sd(sd), byte);
-    if (byte > 0) EXPECT_GT(sd, unpacked_sd(static_cast<std::uint8_t>(byte - 1)));
+    if (byte > 0) {
+      EXPECT_GT(sd, unpacked_sd(static_cast<std::uint8_t>(byte - 1)));
+    }
   }
 }
 

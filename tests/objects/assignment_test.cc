@@ -56,8 +56,9 @@ TEST(Assignment, GivesNoColumnTwice) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     std::set<int> columns;
     for (const int column : assign(random_costs(7, 9, seed), 0.4)) {
-      if (column < 0) continue;
-      EXPECT_TRUE(columns.insert(column).second) << seed;
+      if (column >= 0) {
+        EXPECT_TRUE(columns.insert(column).second) << seed;
+      }
     }
   }
 }
@@ -66,8 +67,9 @@ TEST(Assignment, PairsNothingBeyondTheGate) {
   const Eigen::MatrixXd cost = random_costs(8, 8, 1);
   const std::vector<int> column_of = assign(cost, 0.2);
   for (std::size_t i = 0; i < column_of.size(); ++i) {
-    if (column_of[i] < 0) continue;
-    EXPECT_LE(cost(static_cast<Eigen::Index>(i), column_of[i]), 0.2);
+    if (column_of[i] >= 0) {
+      EXPECT_LE(cost(static_cast<Eigen::Index>(i), column_of[i]), 0.2);
+    }
   }
   EXPECT_EQ(pairs(assign(cost, -1)), 0);
 }
