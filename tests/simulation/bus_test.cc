@@ -11,7 +11,7 @@ constexpr FleetKind kBuses[] = {city_bus, articulated_bus, coach, school_bus, mi
 
 /// Share of glass of what beams from a side meet at a height, over the middle of the bus.
 double glass_share(const Member& m, double z, double side) {
-  const RayCaster caster(m.world);
+  const RayCaster& caster = *m.caster;
   int glass = 0, all = 0;
   for (double x = -0.35 * m.shape.length; x < 0.2 * m.shape.length; x += 0.04) {
     const Shot shot = shoot(caster, {x, side * 8, z}, {0, -side, 0});
@@ -55,7 +55,7 @@ TEST(Bus, ItsRoofIsClosed) {
 
 TEST(Bus, TheDriverLooksAheadThroughGlass) {
   for_each_member(kBuses, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     bool glass = false;
     for (double z = 1.25; z < 2.6; z += 0.05)
       glass |= m.is_glass(shoot(caster, {20, 0.3, z}, {-1, 0, 0}));
@@ -65,7 +65,7 @@ TEST(Bus, TheDriverLooksAheadThroughGlass) {
 
 TEST(Bus, SeatsAreSeenThroughItsWindows) {
   for_each_member(kBuses, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     double most = 0;
     for (double x = -3; x < 1; x += 0.1) {
       const auto met = surfaces_along(caster, {x, 8, window_height(m) - 0.2}, {0, -1, 0});
@@ -88,7 +88,7 @@ TEST(Bus, ItsWheelsAreOfOneSize) {
 
 TEST(ArticulatedBus, HasBellowsBetweenItsRooms) {
   for_each_member(std::array{articulated_bus}, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     int narrow = 0;
     for (double x = m.front() - 12; x < m.front() - 9.4; x += 0.02) {
       const Shot shot = shoot(caster, {x, 8, 0.6}, {0, -1, 0});
@@ -100,7 +100,7 @@ TEST(ArticulatedBus, HasBellowsBetweenItsRooms) {
 
 TEST(Coach, ItsFloorIsHighAboveItsHold) {
   for_each_member(std::array{coach}, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     const Shot up = shoot(caster, {0.3, 0.05, 1.0}, {0, 0, 1});
     EXPECT_NEAR(place_of(up).z(), 1.35, 0.01);
   });

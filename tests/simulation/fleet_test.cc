@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "saker/simulation/sensor/ray_caster.h"
+#include "drawn.h"
 
 namespace saker::simulation {
 namespace {
@@ -23,15 +23,9 @@ Drawn draw(FleetKind kind, std::uint64_t seed) {
   return d;
 }
 
-Eigen::AlignedBox3f bounds(const World& world) {
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& p : world.mesh.vertices) box.extend(p);
-  return box;
-}
-
 /// What every kind's drawings have in common, `check` on each of eight.
 template <class Check>
-void for_each_drawing(Check check) {
+void for_each_member(Check check) {
   for (const FleetEntry& entry : fleet_table()) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       SCOPED_TRACE(std::string(entry.name) + " " + std::to_string(seed));
@@ -47,8 +41,8 @@ TEST(Fleet, TheTableIsInTheOrderOfItsKinds) {
 }
 
 TEST(Fleet, LengthsAreWithinThosePublished) {
-  for_each_drawing([](const FleetEntry& entry, const Drawn& d) {
-    const double length = bounds(d.world).sizes().x();
+  for_each_member([](const FleetEntry& entry, const Drawn& d) {
+    const double length = box_of(d.world.mesh).sizes().x();
     EXPECT_GT(length, entry.length.low - 0.1);
     EXPECT_LT(length, entry.length.high + 0.1);
     EXPECT_NEAR(length, d.shape.length, 0.15);
@@ -56,28 +50,29 @@ TEST(Fleet, LengthsAreWithinThosePublished) {
 }
 
 TEST(Fleet, WidthsAreWithinThosePublishedAndMirrors) {
-  for_each_drawing([](const FleetEntry& entry, const Drawn& d) {
-    const double width = bounds(d.world).sizes().y();
+  for_each_member([](const FleetEntry& entry, const Drawn& d) {
+    const double width = box_of(d.world.mesh).sizes().y();
     EXPECT_GT(width, entry.width.low - 0.1);
     EXPECT_LT(width, entry.width.high + 0.55);
   });
 }
 
 TEST(Fleet, HeightsAreWithinThosePublished) {
-  for_each_drawing([](const FleetEntry& entry, const Drawn& d) {
-    const double height = bounds(d.world).max().z();
+  for_each_member([](const FleetEntry& entry, const Drawn& d) {
+    const double height = box_of(d.world.mesh).max().z();
     EXPECT_GT(height, 0.75 * entry.height.low);  // of a trailer without a box
     EXPECT_LT(height, entry.height.high + 0.05);
   });
 }
 
 TEST(Fleet, EverythingStandsOnTheGround) {
-  for_each_drawing(
-      [](const FleetEntry&, const Drawn& d) { EXPECT_NEAR(bounds(d.world).min().z(), 0, 0.03); });
+  for_each_member([](const FleetEntry&, const Drawn& d) {
+    EXPECT_NEAR(box_of(d.world.mesh).min().z(), 0, 0.03);
+  });
 }
 
 TEST(Fleet, EveryPartHasTheLabelOfItsKind) {
-  for_each_drawing([](const FleetEntry& entry, const Drawn& d) {
+  for_each_member([](const FleetEntry& entry, const Drawn& d) {
     for (const MaterialId m : d.world.mesh.materials) {
       ASSERT_EQ(d.world.materials[m].label, entry.label);
     }
@@ -85,7 +80,7 @@ TEST(Fleet, EveryPartHasTheLabelOfItsKind) {
 }
 
 TEST(Fleet, TheTruthIsTheOutline) {
-  for_each_drawing([](const FleetEntry& entry, const Drawn& d) {
+  for_each_member([](const FleetEntry& entry, const Drawn& d) {
     const TrueObject& object = d.world.objects.at(0);
     const auto& cuboid = std::get<objects::Cuboid>(object.model);
     EXPECT_EQ(object.kind, entry.name);

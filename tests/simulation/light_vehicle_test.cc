@@ -50,7 +50,7 @@ TEST(LightVehicle, MostLargeVansHaveNoWindowsBehindTheFrontDoors) {
   int panels = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Member m(large_van, seed);
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     const double z = 0.7 * std::min(m.shape.height, 2.35);
     panels += !m.is_glass(shoot(caster, {-0.25 * m.shape.length, 8, z}, {0, -1, 0}));
   }

@@ -67,7 +67,7 @@ TEST(WheelLoader, ItsShovelIsAsWideAsItself) {
 
 TEST(Roller, ItsDrumRollsOnTheGroundAtItsFront) {
   for_each_member(std::array{roller}, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     EXPECT_NEAR(m.top_at(m.front() - 0.75), 1.5, 0.02);
     const Shot up = shoot(caster, {m.front() - 0.75, 0, -1}, {0, 0, 1});
     EXPECT_NEAR(place_of(up).z(), 0, 0.02);
@@ -76,7 +76,7 @@ TEST(Roller, ItsDrumRollsOnTheGroundAtItsFront) {
 
 TEST(Forklift, ItsForksAreLowAndBeforeItsMast) {
   for_each_member(std::array{forklift}, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     const Shot up = shoot(caster, {m.front() - 0.2, 0.25, -1}, {0, 0, 1});
     ASSERT_TRUE(up.hit);
     EXPECT_NEAR(place_of(up).z(), 0.12, 1e-3);
@@ -115,7 +115,7 @@ TEST(Trailer, LowOnesAreOpenAndHighOnesClosed) {
 
 TEST(Caravan, HasWindowsOnBothSidesAndARoof) {
   for_each_member(std::array{caravan}, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     for (const double side : {-1.0, 1.0}) {
       const Shot shot = shoot(caster, {-m.front() + 1, side * 8, 1.5}, {0, -side, 0});
       EXPECT_TRUE(m.is_glass(shot));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "drawn.h"
 #include "saker/simulation/world/fleet.h"
 
@@ -11,29 +13,32 @@ struct Member : Sketch {
     constexpr std::size_t kPaintAndCover = 2;  // come before it, see make_parts()
     glass = static_cast<MaterialId>(world.materials.size() + kPaintAndCover);
     add_fleet_vehicle(world, palette, shape, SE3::Identity(), false, rng);
+    caster = std::make_unique<RayCaster>(world);
   }
+
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
 
   [[nodiscard]] double front() const { return shape.length / 2; }
   [[nodiscard]] bool is_glass(const Shot& shot) const { return shot.hit && shot.material == glass; }
   /// Height of what is uppermost at x and y; NaN where nothing is.
   [[nodiscard]] double top_at(double x, double y = 0) const {
-    const RayCaster caster(world);
-    const Shot down = shoot(caster, {x, y, 9}, {0, 0, -1}, 8.99F);
+    const Shot down = shoot(*caster, {x, y, 9}, {0, 0, -1}, 8.99F);
     return down.hit ? place_of(down).z() : NAN;
   }
   /// Share of the beams across the vehicle at a height that meet it, over [from, to] in x.
   [[nodiscard]] double covered(double z, double from, double to) const {
-    const RayCaster caster(world);
     int met = 0, all = 0;
     for (double x = from; x < to; x += 0.05) {
       ++all;
-      met += shoot(caster, {x, 8, z}, {0, -1, 0}).hit;
+      met += shoot(*caster, {x, 8, z}, {0, -1, 0}).hit;
     }
     return static_cast<double>(met) / all;
   }
 
   FleetShape shape;
   MaterialId glass = 0;
+  std::unique_ptr<RayCaster> caster;
 };
 
 /// `check` on several members of each of the kinds.

@@ -56,7 +56,7 @@ TEST(Mount, SpeedIsThatOfItsTranslation) {
 /// `check` on many carriers on one street.
 template <class Check>
 void for_each_mount(Check check) {
-  const BuiltWorld built = build_world(WorldKind::street, 3);
+  static const BuiltWorld built = build_world(WorldKind::street, 3);
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     core::Rng rng(seed);
     SCOPED_TRACE(seed);

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "saker/simulation/sensor/ray_caster.h"
+#include "drawn.h"
 #include "saker/simulation/world/facades.h"
 #include "saker/simulation/world/fences.h"
 #include "saker/simulation/world/furnish_street.h"
@@ -31,22 +31,6 @@ struct Bare {
   StreetFlora street_flora;
 };
 
-/// The box about all that was placed.
-Eigen::AlignedBox3f box_of_placements(const World& world) {
-  Eigen::AlignedBox3f box;
-  for (const Placement& placement : world.placements) {
-    for (const Eigen::Vector3f& v : world.prototypes[placement.prototype].vertices)
-      box.extend(placement.T_world_prototype * v);
-  }
-  return box;
-}
-
-std::set<int> labels_of(const World& world, const Mesh& mesh) {
-  std::set<int> labels;
-  for (const MaterialId m : mesh.materials) labels.insert(world.materials[m].label);
-  return labels;
-}
-
 /// How many separate hits a horizontal fan of rays at height z makes on the world's own mesh.
 int stems_at(const World& world, double z) {
   const RayCaster caster(world);
@@ -66,7 +50,7 @@ int stems_at(const World& world, double z) {
 TEST(Street, AClippedHedgeHasTheSizeThatWasAskedFor) {
   Bare bare;
   add_clipped_hedge(bare.nursery(), {5, 1.6, 1.4}, SE3::Identity(), bare.rng);
-  const Eigen::AlignedBox3f box = box_of_placements(bare.world);
+  const Eigen::AlignedBox3d box = box_of_placements(bare.world);
   EXPECT_NEAR(box.sizes().x(), 5, 0.35);
   EXPECT_NEAR(box.sizes().y(), 1.6, 0.3);
   EXPECT_NEAR(box.max().z(), 1.4, 0.15);
@@ -83,7 +67,7 @@ TEST(Street, ACarSizedBushIsAsLargeAsACar) {
     Bare bare;
     core::Rng rng(static_cast<std::uint64_t>(seed));
     add_car_sized_bush(bare.nursery(), SE3::Identity(), rng);
-    const Eigen::Vector3f size = box_of_placements(bare.world).sizes();
+    const Eigen::Vector3d size = box_of_placements(bare.world).sizes();
     EXPECT_GT(size.z(), 0.9) << seed;
     EXPECT_LT(size.z(), 2.1) << seed;
     EXPECT_GT(std::max(size.x(), size.y()), 1.3) << seed;

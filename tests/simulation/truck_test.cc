@@ -15,7 +15,7 @@ constexpr FleetKind kLorries[] = {box_truck,    flatbed_truck, tipper_truck,
 
 TEST(Truck, HasAFrontThatNoBeamPassesUpToTheWindscreen) {
   for_each_member(kTrucks, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     for (double y = -0.6; y <= 0.6; y += 0.2) {
       for (double z = 0.6; z < 1.2; z += 0.1) {
         const Shot shot = shoot(caster, {20, y, z}, {-1, 0, 0});
@@ -28,7 +28,7 @@ TEST(Truck, HasAFrontThatNoBeamPassesUpToTheWindscreen) {
 
 TEST(Truck, ItsDriverLooksThroughGlass) {
   for_each_member(kLorries, [](const Member& m) {
-    const RayCaster caster(m.world);
+    const RayCaster& caster = *m.caster;
     bool glass = false;
     for (double z = 1.2; z < 3; z += 0.05)
       glass |= m.is_glass(shoot(caster, {20, 0.2, z}, {-1, 0, 0}));
@@ -54,7 +54,7 @@ TEST(Truck, OnlyMirrorsStandOutOfItsWidthByMoreThanAHand) {
   for_each_member(
       kTrucks,
       [](const Member& m) {
-        const RayCaster caster(m.world);
+        const RayCaster& caster = *m.caster;
         for (double x = -m.front() + 0.2; x < m.front() - 3; x += 0.1) {
           for (double z = 0.3; z < m.shape.height; z += 0.3) {
             const Shot shot = shoot(caster, {x, 8, z}, {0, -1, 0});

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saker/simulation/sensor/ray_caster.h"
+#include "drawn.h"
 
 namespace saker::simulation {
 namespace {
@@ -23,19 +23,12 @@ Drawn draw(VehicleKind kind, std::uint64_t seed) {
   return d;
 }
 
-/// Largest |coordinate| over the body; mirrors stand out sideways only.
-Eigen::AlignedBox3f bounds(const World& world) {
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& p : world.mesh.vertices) box.extend(p);
-  return box;
-}
-
 TEST(Vehicle, TheTruthIsTheBodysBoxWithoutMirrors) {
   for (const VehicleKind kind : kCars) {
     for (std::uint64_t seed = 1; seed < 20; ++seed) {
       const Drawn d = draw(kind, seed);
       const auto& cuboid = std::get<objects::Cuboid>(d.world.objects.at(0).model);
-      const Eigen::AlignedBox3f box = bounds(d.world);
+      const Eigen::AlignedBox3d box = box_of(d.world.mesh);
       EXPECT_NEAR(box.sizes().x(), cuboid.size.x(), 0.02) << name_of(kind);
       EXPECT_NEAR(box.max().z(), cuboid.size.z(), 0.02) << name_of(kind);
       EXPECT_NEAR(box.min().z(), 0, 0.02) << name_of(kind);
