@@ -222,7 +222,11 @@ TEST(FitTest, WhatWasNotFlownIsSaidAndTakesTheNearestIntervalsValues) {
 
 TEST(FitTest, AClassOfOwnMakingIsFittedWithoutCode) {
   objects::ClassTable table;
-  table.classes.push_back({"bin", objects::Shape::cuboid, true, {200}});
+  objects::ObjectClass& own = table.classes.emplace_back();
+  own.name = "bin";
+  own.shape = objects::Shape::cuboid;
+  own.target = true;
+  own.label_ids = {200};
   const objects::ClassId bin = table.find("bin");
   std::vector<Sample> samples = made_samples(MadeLaw(), kEdges, 30, 9);
   for (Sample& sample : samples) sample.class_id = bin;
