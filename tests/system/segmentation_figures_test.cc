@@ -33,7 +33,10 @@ TEST(SegmentationFigures, IdsThatMeanNothingDoNotCount) {
 
 TEST(SegmentationFigures, AnIdThatAClassMergesCounts) {
   objects::ClassTable table;
-  table.classes.push_back({"sign", objects::Shape::cylinder, false, {81}});
+  objects::ObjectClass& sign = table.classes.emplace_back();
+  sign.name = "sign";
+  sign.shape = objects::Shape::cylinder;
+  sign.label_ids = {81};
   SegmentationFigures figures(table);
   figures.add({{5}, {1.0F}}, std::vector<std::uint32_t>{81});
   EXPECT_DOUBLE_EQ(figures.classes()[5].iou(), 1);
