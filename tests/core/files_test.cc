@@ -99,7 +99,7 @@ TEST_F(FilesTest, PiecesAreWrittenInTheirOrder) {
 
 TEST_F(FilesTest, AMegabyteIsReadBackTheSame) {
   std::string bytes;
-  for (int i = 0; i < 1'000'000; ++i) bytes += static_cast<char>(i * 7919 >> 3);
+  for (unsigned i = 0; i < 1'000'000; ++i) bytes += static_cast<char>(i * 7919 >> 3);
   write_file(folder_ / "f", bytes);
   EXPECT_TRUE(read_file(folder_ / "f") == bytes);
 }
