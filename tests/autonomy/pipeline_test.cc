@@ -51,13 +51,20 @@ TEST(Delayed, GivesResultsInOrderWhenTheyAreDue) {
   EXPECT_FALSE(results.take(25));
 }
 
+slam::SlamConfig fixed_noise() {
+  slam::SlamConfig config;
+  config.measurement_noise = slam::NoiseSource::fixed;  // fitted noise needs a model
+  return config;
+}
+const slam::SlamConfig kFixedNoise = fixed_noise();
+
 TEST(Mapping, MakesNothingOfAnEmptyWindow) {
-  Mapping mapping({}, {}, objects::ClassTable{});
+  Mapping mapping({}, kFixedNoise, objects::ClassTable{});
   EXPECT_EQ(mapping.cycle({}, Matrix6d::Identity()), nullptr);
 }
 
 TEST(Mapping, SaysWhichShareOfTheNewestScanHasAClass) {
-  Mapping mapping({}, {}, objects::ClassTable{});
+  Mapping mapping({}, kFixedNoise, objects::ClassTable{});
   const auto points = std::make_shared<std::vector<Eigen::Vector3f>>(4, Eigen::Vector3f(5, 0, 0));
   const auto labels = std::make_shared<lidar::Labels>();
   labels->classes = {0, 1, 0, 0};

@@ -132,7 +132,7 @@ TEST(Planning, OfALidarOnItsSideTurnsToAWayThatItHasNotSeen) {
 }
 
 TEST(Planning, OfALevelLidarDoesNotTurnOnTheSpot) {
-  const auto proposal = proposed({});
+  const auto proposal = proposed(with_lidar_turned(0, Eigen::Vector3d::UnitY()));
   if (proposal) {
     EXPECT_GT((proposal->trajectory.states.back().position - Eigen::Vector3d(0, 0, 3)).norm(), 1);
   }
