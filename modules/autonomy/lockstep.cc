@@ -8,6 +8,12 @@ namespace {
 /// Cycles that may wait for their detections: bounds the scans held in memory to a few seconds.
 constexpr std::size_t kMostPendingCycles = 4;
 
+/// A recording chooses no views: without fitted noise it needs no model.
+std::shared_ptr<const uncertainty::Model> model_for_noise(const Config& config) {
+  if (config.slam.measurement_noise == slam::NoiseSource::fixed) return nullptr;
+  return uncertainty_for(config);
+}
+
 }  // namespace
 
 struct Lockstep::Stages {
@@ -19,7 +25,7 @@ Lockstep::Lockstep(const Config& config, int threads, core::Timings& timings)
     : config_(config),
       timings_(timings),
       odometry_(config.odometry),
-      noise_(config.slam, uncertainty_for(config)),
+      noise_(config.slam, model_for_noise(config)),
       slam_(config.slam, config.objects),
       segmentation_schedule_(config.rates.segmentation_hz),
       slam_schedule_(config.rates.slam_hz),
