@@ -29,13 +29,15 @@ THE_SENSORS_SOCKET = "modules/lidar/udp_receiver.cc"  # the one edge that lies i
 
 
 def used(module):
-    """{included module: one of the sources that include it}"""
+    """{included module: one of the sources that include it}; what the build generates (*.inc) belongs to no module."""
     found = {}
     for path in repository.files(".h", ".cc"):
         name = repository.relative(path)
         if not name.startswith(f"modules/{module}/"):
             continue
         for include in repository.includes(path):
+            if include.endswith(".inc"):
+                continue
             folder, *rest = include.split("/")
             found.setdefault(rest[0] if folder == "saker" else include, name)
     return found
