@@ -21,8 +21,8 @@ struct Member : Sketch {
 
   [[nodiscard]] double front() const { return shape.length / 2; }
   [[nodiscard]] bool is_glass(const Shot& shot) const { return shot.hit && shot.material == glass; }
-  /// Height of what is uppermost at x and y; NaN where nothing is.
-  [[nodiscard]] double top_at(double x, double y = 0) const {
+  /// Height of what is uppermost at x and y, beside the seam of both halves; NaN where nothing is.
+  [[nodiscard]] double top_at(double x, double y = 0.03) const {
     const Shot down = shoot(*caster, {x, y, 9}, {0, 0, -1}, 8.99F);
     return down.hit ? place_of(down).z() : NAN;
   }

@@ -52,9 +52,9 @@ inline const objects::Cuboid& cuboid_of(const TrueObject& object) {
   return std::get<objects::Cuboid>(object.model);
 }
 
-/// The outline of a vehicle, seen from above.
-inline std::array<Eigen::Vector2d, 4> footprint_of(const objects::Cuboid& cuboid) {
-  const double x = cuboid.size.x() / 2, y = cuboid.size.y() / 2;
+/// The outline of a vehicle without a margin, seen from above.
+inline std::array<Eigen::Vector2d, 4> footprint_of(const objects::Cuboid& cuboid, double margin) {
+  const double x = cuboid.size.x() / 2 - margin, y = cuboid.size.y() / 2 - margin;
   std::array<Eigen::Vector2d, 4> corners;
   const std::array<Eigen::Vector2d, 4> unit = {{{x, y}, {-x, y}, {-x, -y}, {x, -y}}};
   for (std::size_t i = 0; i < 4; ++i)
@@ -63,8 +63,8 @@ inline std::array<Eigen::Vector2d, 4> footprint_of(const objects::Cuboid& cuboid
 }
 
 /// Whether two vehicles stand in each other: no axis of either separates their outlines.
-inline bool overlap(const objects::Cuboid& a, const objects::Cuboid& b) {
-  const auto p = footprint_of(a), q = footprint_of(b);
+inline bool overlap(const objects::Cuboid& a, const objects::Cuboid& b, double margin = 0) {
+  const auto p = footprint_of(a, margin), q = footprint_of(b, margin);
   for (const objects::Cuboid* of : {&a, &b}) {
     for (int axis = 0; axis < 2; ++axis) {
       const Eigen::Vector2d n = of->pose.linear().col(axis).head<2>();
@@ -81,15 +81,15 @@ inline bool overlap(const objects::Cuboid& a, const objects::Cuboid& b) {
   return true;
 }
 
-/// Pairs of vehicles that stand in each other.
-inline int overlaps(const World& world) {
+/// Pairs of vehicles that stand in each other by more than a margin.
+inline int overlaps(const World& world, double margin = 0) {
   std::vector<const objects::Cuboid*> vehicles;
   for (const TrueObject& object : world.objects) {
     if (object.class_name == "vehicle") vehicles.push_back(&cuboid_of(object));
   }
   int count = 0;
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) count += overlap(*vehicles[i], *vehicles[k]);
+    for (std::size_t k = 0; k < i; ++k) count += overlap(*vehicles[i], *vehicles[k], margin);
   }
   return count;
 }

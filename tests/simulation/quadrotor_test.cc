@@ -189,7 +189,7 @@ TEST(Quadrotor, ItFallsNoFasterThanTheAirLetsIt) {
   AirframeConfig airframe;
   airframe.rotor_drag = 0;
   Quadrotor q(airframe, SE3::Identity());
-  run(q, 60, MotorThrusts::Zero(), kFarBelow);
+  run(q, 20, MotorThrusts::Zero(), kFarBelow);
   const double terminal = std::sqrt(airframe.mass_kg * kStandardGravity / airframe.air_drag);
   EXPECT_NEAR(q.state().velocity.z(), -terminal, 0.01 * terminal);
 }

@@ -44,7 +44,7 @@ TEST(DrawCab, ReachesFromItsBumperToItsRoof) {
 }
 
 TEST(DrawCab, BothSidesAreAlike) {
-  constexpr double kBar = 5e-3;  // m: the arms of the mirrors are drawn with five sides
+  constexpr double kBar = 1e-2;  // m: the arms of the mirrors are drawn with five sides
   EXPECT_TRUE(is_mirrored(Cab().mesh(), kBar));
   EXPECT_TRUE(is_mirrored(Cab(true, 1.2).mesh(), kBar));
 }
