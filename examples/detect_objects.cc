@@ -1,5 +1,5 @@
-// Prints the vehicles, trunks and poles that one scan shows, as JSON in the lidar's frame.
-//   detect_objects RECORDING [SCAN]      SCAN counts from 0
+// detect_objects RECORDING [SCAN, from 0]: vehicles, trunks and poles as JSON, in the lidar's frame
+#include <saker/core/error.h>
 #include <saker/detection/detection.h>
 #include <saker/lidar/recording.h>
 #include <saker/objects/map_io.h>

@@ -21,12 +21,12 @@ int run(const char* file, const Eigen::Vector3d& place, double yaw) {
   const auto fence = [](const Eigen::Vector3d& p) { return p.z() > 1 && p.z() < 10; };
   active::ActiveConfig config;
   config.policy = active::PolicyName::saker;
-  const auto policy = active::make_policy(config, table, map, fence, model);
+  active::TargetTour tour = active::make_tour(config, table, map, fence, model);
   active::ActiveInput now;
   now.stamp = 1;
   now.T_world_body = active::level_pose(place, yaw);
   now.map = std::make_shared<const objects::ObjectMap>(map);
-  const active::ActivePlan plan = policy->plan(now, core::Budget::iterations(1000));
+  const active::ActivePlan plan = tour.plan(now, core::Budget::iterations(1000));
   if (!plan.goal) {
     std::puts("nothing is left to be seen");
     return 1;
