@@ -37,8 +37,8 @@ struct UncertaintyConfig {
 /// (cylinder) is the fitted one. The rest stays as detection says, and so do measurements from a
 /// view that was not flown and cuboids that were not seen from end to end: which end is hidden
 /// varies with what stands around. An end that a window states badly is no better known than such
-/// ends were (`slam.noise.fitted_end_sd_m`); where a side was hidden it is as badly known as the
-/// class's widths differ (`slam.noise.fitted_hidden_side_m`). All from one cell count once, those
+/// ends were (`slam.noise.fitted_end_sd_m`); a width that a window states worse than
+/// `slam.noise.fitted_width_sd_m` keeps what the window states. All from one cell count once, those
 /// that were left as they are beside the others. A class that the model does not know is left
 /// alone.
 ///
