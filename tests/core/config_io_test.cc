@@ -195,7 +195,7 @@ struct Mixed {
       v.field("cell_m", cell_m, {0.1, 2}, "m", "edge of a cell");
     }
   } site;
-  std::vector<Gate> gates = {Gate{}};
+  std::vector<Gate> gates = std::vector<Gate>(1);
 
   template <class Visitor>
   void visit(Visitor& v) {
