@@ -28,19 +28,21 @@ struct BoxView {
   Eigen::Vector3d sensor;
   MadeBox box;
   double noise = 0.02;
+  std::vector<Eigen::Vector3d> hits = {};  ///< where beams end on it
   Places places = {};
   Surroundings surroundings{{}};
 
   BoxView(const Eigen::Vector3d& from, const MadeBox& seen, double sd = 0.02)
       : sensor(from), box(seen), noise(sd) {
     core::Rng rng(3);
-    for (const auto& p : testing::visible_box(box, sensor, 1100, noise, rng)) {
+    hits = testing::visible_box(box, sensor, 1100, noise, rng);
+    for (const Eigen::Vector3d& p : hits) {
       if (p.z() > 0.2) places.emplace_back(p.head<2>());
     }
   }
 
   [[nodiscard]] Plan fit() const {
-    const Beams beams = testing::ground_beams(sensor, {box}, 4000);
+    const Beams beams = testing::ground_beams(sensor, {box}, 4000, hits);
     const Sight sight{{sensor}, beams, surroundings, SE3::Identity()};
     const VehicleView view{places, static_cast<int>(places.size()), box.height, sight};
     const FaceFitter fitter(flat(), kHighest, vehicle_kinds({}));
@@ -57,8 +59,23 @@ struct BoxView {
 
 double off(double heading, double yaw) { return std::abs(std::remainder(heading - yaw, M_PI)); }
 
+Eigen::Vector2d middle(const Plan& plan) {
+  return Eigen::Rotation2Dd(plan.heading) *
+         Eigen::Vector2d(plan.axis[0].centre(), plan.axis[1].centre());
+}
+
 const Eigen::Vector3d kAbove(0, 0, 6);  // sees two sides and the roof
 const Eigen::Vector3d kLow(0, 0, 1.2);
+
+TEST(FaceFitter, OutlineOfABoxIsItsRectangleTheLongerSideFirst) {
+  for (const double yaw : {0.3, 1.2, 2.3, -0.8}) {
+    const Plan plan = BoxView(kAbove, {9, 2, yaw}).outline();
+    EXPECT_LT(off(plan.heading, yaw), 0.06) << yaw;
+    EXPECT_NEAR(plan.axis[0].size(), 4.5, 0.15) << yaw;
+    EXPECT_NEAR(plan.axis[1].size(), 1.8, 0.15) << yaw;
+    EXPECT_LT((middle(plan) - Eigen::Vector2d(9, 2)).norm(), 0.12) << yaw;
+  }
+}
 
 TEST(FaceFitter, OutlineTellsHowWellItKnowsTheHeading) {
   int within = 0;
@@ -109,6 +126,20 @@ TEST(FaceFitter, PlanTurnsWithTheScene) {
     EXPECT_NEAR(after.axis[0].size(), before.axis[0].size(), 0.15) << turn;
     EXPECT_NEAR(after.axis[1].size(), before.axis[1].size(), 0.1) << turn;
   }
+}
+
+TEST(FaceFitter, FaceThatWasSeenIsBetterKnownThanTheOneBehind) {
+  // From behind and low: its rear is seen, its front is not.
+  const Plan plan = BoxView(kLow, {12, 0, 0}).fit();
+  Eigen::Matrix2d to_edges;
+  to_edges << 1, -0.5, 1, 0.5;
+  const Eigen::Matrix2d edges = to_edges * plan.axis[0].covariance * to_edges.transpose();
+  const bool forward = std::cos(plan.heading) > 0;
+  const double rear = std::sqrt(edges(forward ? 0 : 1, forward ? 0 : 1));
+  const double front = std::sqrt(edges(forward ? 1 : 0, forward ? 1 : 0));
+  EXPECT_LT(rear, 0.15);
+  EXPECT_GT(front, 3 * rear);
+  EXPECT_NEAR(forward ? plan.axis[0].low : -plan.axis[0].high, 9.75, 0.12);
 }
 
 TEST(FaceFitter, RowAsLongAsTwoCarsAndNoHigherIsSeveral) {

@@ -182,6 +182,8 @@ TEST(InertialFilter, OverAGapItGoesOnStraightAndKnowsLittle) {
   EXPECT_NEAR(filter.T_odom_lidar().translation().x(), 2, 1e-9);
   EXPECT_GE(std::sqrt(filter.covariance()(6, 6)), 0.5 * config.unknown_acceleration_mps2);
   EXPECT_GE(std::sqrt(filter.covariance()(0, 0)), 0.5 * config.unknown_rate_rps);
+  EXPECT_NEAR(std::sqrt(filter.covariance()(3, 3)),
+              0.25 * config.unknown_acceleration_mps2 / std::sqrt(3.0), 0.01);
 }
 
 TEST(InertialFilter, StartedAgainKeepsWhatItKnowsOfTheBiases) {

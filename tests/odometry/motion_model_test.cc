@@ -45,8 +45,11 @@ TEST(MotionModel, AtFirstExpectsNoMotionAndAnySpeed) {
   model.start(0, along_x(3));
   const Prediction prediction = model.predict(from_seconds(0.1), {});
   EXPECT_TRUE(prediction.prior.T_odom_lidar.isApprox(along_x(3)));
-  EXPECT_GE(std::sqrt(prediction.prior.covariance(3, 3)), 0.1 * MotionConfig().initial_speed_mps);
-  EXPECT_GE(std::sqrt(prediction.prior.covariance(2, 2)), 0.1 * MotionConfig().initial_rate_rps);
+  const MotionConfig c;
+  EXPECT_NEAR(std::sqrt(prediction.prior.covariance(3, 3)),
+              std::hypot(0.1 * c.initial_speed_mps, 0.01 * c.acceleration_mps2), 1e-9);
+  EXPECT_NEAR(std::sqrt(prediction.prior.covariance(2, 2)),
+              std::hypot(0.1 * c.initial_rate_rps, 0.01 * c.angular_acceleration_rps2), 1e-9);
   EXPECT_FALSE(prediction.inertial.has_value());
 }
 
