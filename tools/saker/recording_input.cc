@@ -20,7 +20,8 @@ void add_recording_input(CLI::App& app, const std::string& name, RecordingInput&
       ->type_name("SERIAL");
   app.add_option("--topic", input.options.topics,
                  "with the scans or the inertial samples, where a bag has several; repeatable")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   app.add_option(
          "--point-fields", input.options.point_fields,
          "floats of a point in *.bin: x,y,z,i,ring,t and _; found from the data when not given")

@@ -10,6 +10,7 @@ namespace saker::lidar {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18;
+constexpr std::size_t kRoomToEnd = 64;  // decompressors want some to see that they are done
 
 /// Grows `into` by a piece, at most to `most` bytes. \return bytes that may be written
 std::size_t grow(std::vector<std::uint8_t>& into, std::size_t used, std::size_t most) {
@@ -93,20 +94,26 @@ Compression compression_of(std::string_view name) {
 bool decompress(Compression compression, ByteView bytes, std::size_t most,
                 std::vector<std::uint8_t>& into) {
   into.clear();
+  const std::size_t room = most + kRoomToEnd;
+  bool whole = false;
   switch (compression) {
     case Compression::kNone:
-      into.assign(bytes.begin(), bytes.begin() + std::min(most, bytes.size()));
+      into.assign(bytes.begin(),
+                  bytes.begin() + static_cast<std::ptrdiff_t>(std::min(most, bytes.size())));
       return bytes.size() <= most;
     case Compression::kLz4:
-      return lz4(bytes, most, into);
+      whole = lz4(bytes, room, into);
+      break;
     case Compression::kZstd:
-      return zstd(bytes, most, into);
+      whole = zstd(bytes, room, into);
+      break;
     case Compression::kBz2:
-      return bz2(bytes, most, into);
+      whole = bz2(bytes, room, into);
+      break;
     case Compression::kUnknown:
       break;
   }
-  return false;
+  return whole && into.size() <= most;
 }
 
 bool decompress_lzf(ByteView bytes, std::size_t size, std::vector<std::uint8_t>& into) {

@@ -18,6 +18,7 @@ constexpr std::size_t kLargestMetadata = 16 << 20;
 constexpr std::uint8_t kRangeField = 1, kReflectivityField = 5;
 
 // Fields of the tables, in their order in the vendor's schemas.
+enum Header { kMetadataOffset = 2 };
 enum Metadata { kEntries = 4 };
 enum Entry { kEntryId = 0, kEntryType = 1, kEntryBuffer = 2 };
 enum Chunk { kMessages = 0 };
@@ -78,6 +79,7 @@ OsfRecording::OsfRecording(const std::filesystem::path& file, const RecordingOpt
   const auto header = next_block();
   if (!header || header->kind != "OSF$") throw Error(where_ + ": no OSF file");
   first_at_ = at_;
+  metadata_at_ = FlatTable::root(header->bytes, false).number<std::uint64_t>(kMetadataOffset, 0);
   find_streams(options);
   at_ = first_at_;
   amiss_.clear();
@@ -134,13 +136,22 @@ void OsfRecording::read_sensor_message(ByteView message, std::map<std::uint32_t,
 /// The metadata stand at the end; newer files have them in their first chunk, too.
 void OsfRecording::find_streams(const RecordingOptions& options) {
   std::map<std::uint32_t, Stream> streams;
-  std::optional<Block> first;
-  while (const auto block = next_block()) {
-    const FlatTable root = FlatTable::root(block->bytes, false);
-    if (block->kind == "OSF#") read_metadata_block(root, streams);
-    if (block->kind == "OSF!" && !first) first = block;
+  const std::optional<Block> first = next_block();
+  if (metadata_at_ > first_at_) {
+    at_ = metadata_at_;
+    if (const auto block = next_block(); block && block->kind == "OSF#") {
+      read_metadata_block(FlatTable::root(block->bytes, false), streams);
+    }
   }
-  if (streams.empty() && first) {
+  at_ = first_at_;  // a file that was not closed does not say where
+  while (streams.empty()) {
+    const auto block = next_block();
+    if (!block) break;
+    if (block->kind == "OSF#") {
+      read_metadata_block(FlatTable::root(block->bytes, false), streams);
+    }
+  }
+  if (streams.empty() && first && first->kind == "OSF!") {
     const FlatTable chunk = FlatTable::root(first->bytes, false);
     for (const FlatTable& message : chunk.tables(kMessages)) {
       read_sensor_message(message.bytes(kMessageBuffer), streams);

@@ -53,8 +53,9 @@ class OsfRecording : public ScanSource {
   std::string where_;
   FileBytes file_;
   std::uint64_t at_ = 0;
-  std::uint64_t first_at_ = 0;
-  std::uint32_t stream_ = 0;  // id of the chosen one's messages
+  std::uint64_t first_at_ = 0;     // of the blocks behind the header
+  std::uint64_t metadata_at_ = 0;  // as the header says
+  std::uint32_t stream_ = 0;       // id of the chosen one's messages
   SensorInfo info_;
   std::unique_ptr<ScanAssembler> assembler_;
   std::optional<Block> chunk_;
