@@ -1,10 +1,11 @@
 #include "saker/lidar/datagrams.h"
 
-#include <arpa/inet.h>
 #include <pcap/pcap.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <utility>
 
 #include "saker/lidar/bytes.h"
 
@@ -60,14 +61,42 @@ IpAddress mapped(const std::uint8_t* version4) {
   return address;
 }
 
+constexpr std::size_t kGroups = 8;  // of four digits, in an address of version 6
+
+/// The first of the longest runs of groups that are 0: its first and the one behind its last; an
+/// empty run where there is none of at least two.
+std::pair<std::size_t, std::size_t> longest_zeros(const IpAddress& address) {
+  std::pair<std::size_t, std::size_t> longest = {0, 0};
+  for (std::size_t begin = 0; begin < kGroups; ++begin) {
+    std::size_t end = begin;
+    while (end < kGroups && read_network16(&address[2 * end]) == 0) ++end;
+    if (end - begin >= 2 && end - begin > longest.second - longest.first) longest = {begin, end};
+  }
+  return longest;
+}
+
 }  // namespace
 
 std::string to_string(const IpAddress& address) {
-  std::array<char, INET6_ADDRSTRLEN> text = {};
-  const bool version4 =
-      std::equal(address.begin(), address.begin() + 12, mapped(&address[12]).begin());
-  const int family = version4 ? AF_INET : AF_INET6;
-  return inet_ntop(family, version4 ? &address[12] : address.data(), text.data(), text.size());
+  std::string text;
+  if (std::equal(address.begin(), address.begin() + 12, mapped(&address[12]).begin())) {
+    for (std::size_t i = 12; i < 16; ++i) {
+      text += (text.empty() ? "" : ".") + std::to_string(int{address[i]});
+    }
+    return text;
+  }
+  const auto [zeros, end] = longest_zeros(address);
+  for (std::size_t i = 0; i < kGroups; ++i) {
+    if (i == zeros && end > zeros) {
+      text += "::";
+      i = end - 1;
+      continue;
+    }
+    std::array<char, 8> group = {};
+    std::snprintf(group.data(), group.size(), "%x", read_network16(&address[2 * i]));
+    text += (text.empty() || text.back() == ':' ? "" : ":") + std::string(group.data());
+  }
+  return text;
 }
 
 bool link_known(int link) {
