@@ -90,8 +90,12 @@ TEST_P(FloatRows, TheNumberAndTheKindOfAPointsFloatsAreFound) {
     return std::find(fields.begin(), fields.end(), field) != fields.end();
   };
   EXPECT_EQ(!frame->scan.ring.empty(), has("ring"));
-  if (has("ring")) EXPECT_EQ(frame->scan.ring[33], 1);
-  if (has("time")) EXPECT_LT(frame->scan.offset_ns.front(), -90'000'000);
+  if (has("ring")) {
+    EXPECT_EQ(frame->scan.ring[33], 1);
+  }
+  if (has("time")) {
+    EXPECT_LT(frame->scan.offset_ns.front(), -90'000'000);
+  }
   if (GetParam().fields.size() != 4) {
     EXPECT_NE(source.note().find(describe_fields(GetParam().fields)), std::string::npos)
         << source.note();

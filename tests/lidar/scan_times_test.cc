@@ -28,7 +28,8 @@ TEST(NaturalOrder, IsAnOrder) {
   for (const auto& a : names) {
     EXPECT_FALSE(natural_less(a, a));
     for (const auto& b : names) {
-      if (a != b) EXPECT_NE(natural_less(a, b), natural_less(b, a)) << a << " " << b;
+      if (a == b) continue;
+      EXPECT_NE(natural_less(a, b), natural_less(b, a)) << a << " " << b;
     }
   }
 }
