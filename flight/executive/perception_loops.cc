@@ -36,11 +36,9 @@ LoopStatus Executive::sensor() {
 }
 
 void Executive::take_packet(std::span<const std::uint8_t> payload) {
-  if (payload.size() == lidar::kImuPacketBytes) {
-    if (const auto sample = lidar::decode_imu(payload, sensor_)) {
-      board_.clock.hear(sample->stamp);
-      board_.imu.push(*sample);
-    }
+  for (const lidar::ImuSample& sample : lidar::decode_imu(payload, sensor_)) {
+    board_.clock.hear(sample.stamp);
+    board_.imu.push(sample);
   }
   board_.packets.push({payload.begin(), payload.end()});
 }

@@ -81,8 +81,8 @@ void MissionLockstep::step(Time now) {
 
 void MissionLockstep::receive(Time now) {
   for (const SensorPacket& packet : plant_.take_packets()) {
-    if (packet.payload.size() == lidar::kImuPacketBytes) {
-      if (const auto sample = lidar::decode_imu(packet.payload, sensor_)) body_pose_.add(*sample);
+    for (const lidar::ImuSample& sample : lidar::decode_imu(packet.payload, sensor_)) {
+      body_pose_.add(sample);
     }
     ingestion_.add(packet.payload);
   }

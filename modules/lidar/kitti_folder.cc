@@ -8,6 +8,8 @@
 #include <string>
 
 #include "saker/core/error.h"
+#include "saker/lidar/clouds/natural_order.h"
+#include "saker/lidar/clouds/scan_times.h"
 #include "saker/lidar/sensor_origin.h"
 
 namespace saker::lidar {
@@ -15,11 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFloatsAPoint = 4;
-constexpr std::size_t kBytesAPoint = kFloatsAPoint * sizeof(float);
 constexpr std::size_t kMostPoints = 4'000'000;
-constexpr Time kTenthOfSecond = kNanosecondsPerSecond / 10;
-constexpr double kLargestTime = 9e9;  // seconds; beyond it nanoseconds overflow
 
 std::vector<fs::path> scans_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -29,73 +27,36 @@ std::vector<fs::path> scans_in(const fs::path& folder) {
       files.push_back(entry.path());
     }
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), [](const fs::path& x, const fs::path& y) {
+    return natural_less(x.filename().string(), y.filename().string());
+  });
   return files;
 }
 
+/// KITTI's raw recordings, SemanticKITTI, MulRan, or the folder itself.
 fs::path scan_folder(const fs::path& folder) {
   std::error_code ignored;
-  return fs::is_directory(folder / "velodyne", ignored) ? folder / "velodyne" : folder;
-}
-
-fs::path parent_of(const fs::path& scans) {
-  const fs::path whole = fs::absolute(scans).lexically_normal();
-  return (whole.has_filename() ? whole : whole.parent_path()).parent_path();
-}
-
-fs::path times_file(const fs::path& scans) {
-  std::error_code ignored;
-  for (const fs::path& file : {scans / "times.txt", parent_of(scans) / "times.txt"}) {
-    if (fs::is_regular_file(file, ignored)) return file;
+  if (fs::is_directory(folder / "velodyne", ignored)) return folder / "velodyne";
+  if (!scans_in(folder).empty()) return folder;
+  for (const char* below : {"velodyne_points/data", "data", "Ouster"}) {
+    if (!scans_in(folder / below).empty()) return folder / below;
   }
-  return {};
-}
-
-std::vector<Time> read_times(const fs::path& file) {
-  std::ifstream in(file);
-  std::vector<Time> times;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    char* end = nullptr;
-    const double seconds = std::strtod(line.c_str(), &end);
-    const bool whole = end != line.c_str() &&
-                       line.find_first_not_of(" \t\r", end - line.c_str()) == std::string::npos;
-    if (!whole || !(std::abs(seconds) < kLargestTime)) {
-      throw Error(file.string() + ":" + std::to_string(number) + ": \"" + line.substr(0, 40) +
-                  "\", expected a time in seconds");
-    }
-    times.push_back(from_seconds(seconds));
-  }
-  return times;
-}
-
-std::vector<Time> times_of(const fs::path& scans, std::size_t count) {
-  const fs::path file = times_file(scans);
-  std::vector<Time> times;
-  if (file.empty()) {
-    for (std::size_t i = 0; i < count; ++i) times.push_back(kTenthOfSecond * static_cast<Time>(i));
-    return times;
-  }
-  times = read_times(file);
-  if (times.size() != count) {
-    throw Error(file.string() + ": " + std::to_string(times.size()) + " times, expected " +
-                std::to_string(count) + ", one a scan");
-  }
-  return times;
+  return folder;
 }
 
 /// The fault, or empty when `buffer` holds the file's floats.
-std::string read_floats(const fs::path& file, std::vector<float>& buffer) {
+std::string read_floats(const fs::path& file, std::size_t bytes_a_point,
+                        std::vector<float>& buffer) {
   std::error_code error;
   const auto bytes = fs::file_size(file, error);
   if (error) return "cannot be read: " + error.message();
   if (bytes == 0) return "holds no points";
-  if (bytes % kBytesAPoint != 0) {
-    return std::to_string(bytes) + " bytes, expected a multiple of " + std::to_string(kBytesAPoint);
+  if (bytes % bytes_a_point != 0) {
+    return std::to_string(bytes) + " bytes, expected a multiple of " +
+           std::to_string(bytes_a_point);
   }
-  if (bytes / kBytesAPoint > kMostPoints) {
-    return std::to_string(bytes / kBytesAPoint) + " points, expected at most " +
+  if (bytes / bytes_a_point > kMostPoints) {
+    return std::to_string(bytes / bytes_a_point) + " points, expected at most " +
            std::to_string(kMostPoints);
   }
   buffer.resize(bytes / sizeof(float));
@@ -128,12 +89,22 @@ std::string read_rings(const fs::path& folder, const std::string& stem, Scan& sc
   return "";
 }
 
+/// Where the fields stand in a point.
+PointLayout layout_of(const FloatFields& fields) {
+  PointLayout layout;
+  for (const std::string& field : fields) layout.append(field, NumberType::kF32);
+  return layout;
+}
+
+const FloatFields kKittiFields = {"x", "y", "z", "intensity"};
+
 void fill(const std::vector<float>& floats, Scan& scan) {
-  const std::size_t points = floats.size() / kFloatsAPoint;
+  const std::size_t floats_a_point = kKittiFields.size();
+  const std::size_t points = floats.size() / floats_a_point;
   scan.points.reserve(points);
   scan.reflectivity.reserve(points);
   scan.offset_ns.assign(points, 0);
-  for (std::size_t i = 0; i < floats.size(); i += kFloatsAPoint) {
+  for (std::size_t i = 0; i < floats.size(); i += floats_a_point) {
     scan.points.emplace_back(floats[i], floats[i + 1], floats[i + 2]);
     const float remission = floats[i + 3];
     scan.reflectivity.push_back(std::isfinite(remission) ? std::clamp(remission, 0.0F, 1.0F) : 0);
@@ -142,22 +113,35 @@ void fill(const std::vector<float>& floats, Scan& scan) {
 
 }  // namespace
 
-KittiFolder::KittiFolder(const fs::path& folder) {
-  const fs::path scans = scan_folder(folder);
-  files_ = scans_in(scans);
-  if (files_.empty()) {
-    throw Error(folder.string() + ": no scans, expected *.bin in it or in velodyne/");
-  }
-  times_ = times_of(scans, files_.size());
+KittiFolder::KittiFolder(const fs::path& path, const std::string& point_fields) {
   std::error_code ignored;
+  const bool one = fs::is_regular_file(path, ignored);
+  const fs::path scans = one ? parent_of(path) : scan_folder(path);
+  files_ = one ? std::vector<fs::path>{path} : scans_in(scans);
+  if (files_.empty()) {
+    throw Error(path.string() + ": no scans, expected *.bin in it or in velodyne/");
+  }
+  fields_ =
+      point_fields.empty() ? find_fields(files_, path.string()) : parse_point_fields(point_fields);
+  if (fields_ != kKittiFields) reader_.emplace(layout_of(fields_), path.string());
+  times_ = one ? std::vector<Time>{0} : times_of_scans(scans, files_);
   if (fs::is_directory(parent_of(scans) / "ring", ignored)) rings_ = parent_of(scans) / "ring";
   find_origin();
 }
 
-std::string KittiFolder::read(const fs::path& file, Scan& scan) {
-  const std::string fault = read_floats(file, buffer_);
+std::string KittiFolder::read(std::size_t which, Scan& scan) {
+  const fs::path& file = files_[which];
+  const std::size_t bytes_a_point = fields_.size() * sizeof(float);
+  std::string fault = read_floats(file, bytes_a_point, buffer_);
+  if (fault.empty() && reader_) {
+    const ByteView bytes(reinterpret_cast<const std::uint8_t*>(buffer_.data()),
+                         buffer_.size() * sizeof(float));
+    fault =
+        reader_->read(bytes, 1, bytes.size() / bytes_a_point, bytes.size(), times_[which], scan);
+  } else if (fault.empty()) {
+    fill(buffer_, scan);
+  }
   if (!fault.empty()) return file.filename().string() + ": " + fault;
-  fill(buffer_, scan);
   if (T_lidar_sensor_) scan.T_lidar_sensor = *T_lidar_sensor_;
   return read_rings(rings_, file.stem().string(), scan);
 }
@@ -167,26 +151,32 @@ void KittiFolder::find_origin() {
   const std::size_t last = files_.size() - 1;
   for (const std::size_t i : std::set<std::size_t>{0, last / 2, last}) {
     Scan scan;
-    if (read(files_[i], scan).empty()) scans.push_back(std::move(scan));
+    if (read(i, scan).empty()) scans.push_back(std::move(scan));
   }
   T_lidar_sensor_ = find_sensor_origin(scans);
 }
 
 std::string KittiFolder::note() const {
-  return T_lidar_sensor_ ? describe_sensor_origin(*T_lidar_sensor_) : "";
+  std::string text;
+  if (fields_ != kKittiFields) {
+    text = std::to_string(fields_.size()) + " floats a point: " + describe_fields(fields_) +
+           " (--point-fields says it otherwise)";
+  }
+  if (!T_lidar_sensor_) return text;
+  return text + (text.empty() ? "" : "; ") + describe_sensor_origin(*T_lidar_sensor_);
 }
 
 std::optional<Frame> KittiFolder::next() {
   if (next_ >= files_.size()) return std::nullopt;
-  const fs::path& file = files_[next_];
+  const std::size_t which = next_++;
   Frame frame;
-  frame.name = file.stem().string();
-  frame.scan.stamp = times_[next_++];
-  frame.fault = read(file, frame.scan);
+  frame.name = files_[which].stem().string();
+  frame.scan.stamp = times_[which];
+  frame.fault = read(which, frame.scan);
   if (!frame.fault.empty()) {
     ++counters_.faulty_scans;
     frame.scan = {};
-    frame.scan.stamp = times_[next_ - 1];
+    frame.scan.stamp = times_[which];
   }
   return frame;
 }

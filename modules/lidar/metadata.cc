@@ -1,9 +1,11 @@
 #include "saker/lidar/metadata.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "saker/core/error.h"
 #include "saker/core/files.h"
@@ -23,9 +25,14 @@ class Document {
     if (root_.is_discarded()) throw Error(where_ + ": not valid JSON");
     if (!root_.is_object()) throw Error(where_ + ": expected a JSON object of sensor metadata");
     nested_ = root_.contains("beam_intrinsics");
+    forget_refused_sections();
+    refuse_mixture();
   }
 
   [[nodiscard]] bool nested() const { return nested_; }
+  /// Firmware 1, which the vendor's newer tools ask for more than it knows.
+  [[nodiscard]] bool old_firmware() const { return answered_.contains("lidar_data_format"); }
+  [[nodiscard]] bool has(const char* section) const { return root_.contains(section); }
 
   /// Null when the key is absent; in the flat form everything but the data format stands at the
   /// top.
@@ -58,6 +65,42 @@ class Document {
   }
 
  private:
+  /// Old firmware answers "error: Command not recognized." where it does not know a section.
+  void forget_refused_sections() {
+    for (const char* section : kSections) {
+      if (root_.contains(section) && root_[section].is_string()) {
+        answered_.insert(section);
+        root_.erase(section);
+      }
+    }
+  }
+
+  /// The two forms hold different keys; a file with keys of both was put together by hand. One that
+  /// a vendor's client wrote in the nested form holds every section.
+  void refuse_mixture() const {
+    if (!nested_) {
+      for (const char* section : kSections) {
+        if (root_.contains(section)) {
+          throw Error(where_ + ": " + section + ": a section of the nested form, expected " +
+                      "beam_intrinsics beside it or the flat form alone");
+        }
+      }
+      return;
+    }
+    for (const char* key : kFlatKeys) {
+      if (root_.contains(key)) {
+        throw Error(where_ + ": " + key + ": a key of the flat form, expected the nested form " +
+                    "alone, as there is beam_intrinsics");
+      }
+    }
+    if (!root_.contains("client_version")) return;
+    for (const char* section : kSections) {
+      if (!root_.contains(section) && !answered_.contains(section)) {
+        throw Error(where_ + ": " + section + ": missing, expected the section");
+      }
+    }
+  }
+
   [[nodiscard]] std::string name(const char* section, const char* key) const {
     return nested_ || root_.contains(section) ? std::string(section) + "." + key : key;
   }
@@ -86,8 +129,16 @@ class Document {
            expected);
   }
 
+  static constexpr std::array kSections = {"sensor_info",       "beam_intrinsics",
+                                           "imu_intrinsics",    "lidar_intrinsics",
+                                           "lidar_data_format", "calibration_status"};
+  static constexpr std::array kFlatKeys = {
+      "beam_altitude_angles",    "beam_azimuth_angles", "data_format",
+      "imu_to_sensor_transform", "prod_line",           "prod_sn"};
+
   Json root_;
   bool nested_ = false;
+  std::set<std::string> answered_;  // sections that the firmware did not know
   std::string where_;
 };
 
@@ -119,6 +170,15 @@ PacketProfile read_profile(const Document& document, const char* format) {
   document.refuse(format, "udp_profile_lidar", name, "one of " + known);
 }
 
+/// Firmware 3.2 says which; before, the profile did.
+PacketHeader read_header(const Document& document, const char* format, PacketProfile profile) {
+  if (profile == PacketProfile::kFusaRng15Rfl8Nir8Dual) return PacketHeader::kFusa;
+  const auto name = document.optional<std::string>(format, "header_type", "a name", "STANDARD");
+  if (name == "STANDARD") return PacketHeader::kStandard;
+  if (name == "FUSA") return PacketHeader::kFusa;
+  document.refuse(format, "header_type", name, "STANDARD or FUSA");
+}
+
 /// What sensors without the key do: each row moves so that its beams point where the left-most
 /// row's do.
 std::vector<int> shifts_from_azimuth(const SensorInfo& info) {
@@ -145,14 +205,18 @@ ColumnWindow read_window(const Document& document, const char* format, int colum
 void read_format(const Document& document, SensorInfo& info) {
   const char* format = document.nested() ? "lidar_data_format" : "data_format";
   const LidarMode mode = read_mode(document);
-  info.rows = document.optional<int>(format, "pixels_per_column", "a number of rows",
-                                     static_cast<int>(info.beam_altitude_deg.size()));
-  info.columns = mode.columns > 0
-                     ? document.optional<int>(format, "columns_per_frame", "a number", mode.columns)
-                     : document.required<int>(format, "columns_per_frame", "a number of columns");
+  if (document.has(format) || mode.columns == 0) {
+    info.columns = document.required<int>(format, "columns_per_frame", "a number of columns");
+  } else {
+    info.columns = mode.columns;
+  }
+  info.rows = document.has(format)
+                  ? document.required<int>(format, "pixels_per_column", "a number of rows")
+                  : static_cast<int>(info.beam_altitude_deg.size());
   info.columns_per_packet = document.optional<int>(format, "columns_per_packet", "a number", 16);
   info.frame_rate_hz = document.optional<double>(format, "fps", "a rate in Hz", mode.rate_hz);
   info.profile = read_profile(document, format);
+  info.header = read_header(document, format, info.profile);
   info.column_window = read_window(document, format, info.columns);
   info.pixel_shift_by_row = document.optional<std::vector<int>>(
       format, "pixel_shift_by_row", "whole numbers, one a row", shifts_from_azimuth(info));
@@ -192,7 +256,7 @@ void read_beams(const Document& document, SensorInfo& info) {
   info.beam_azimuth_deg = document.required<Values>(section, "beam_azimuth_angles", expected);
   const char* origin = "lidar_origin_to_beam_origin_mm";
   info.beam_origin_m =
-      kMillimetre * (document.nested()
+      kMillimetre * (document.nested() && !document.old_firmware()
                          ? document.required<double>(section, origin, "a length in mm")
                          : document.optional<double>(section, origin, "a length in mm",
                                                      default_beam_origin_mm(info.product_line)));
@@ -224,6 +288,7 @@ Json format_json(const SensorInfo& info) {
           {"column_window", {info.column_window.first, info.column_window.last}},
           {"pixel_shift_by_row", info.pixel_shift_by_row},
           {"udp_profile_lidar", to_string(info.profile)},
+          {"header_type", info.header == PacketHeader::kFusa ? "FUSA" : "STANDARD"},
           {"udp_profile_imu", "LEGACY"}};
 }
 

@@ -5,9 +5,10 @@
 
 #include "saker/lidar/sensor_info.h"
 
-/// Reads and writes the vendor's metadata JSON. Read are the flat form of firmware 2 and the nested
-/// one of firmware 3; what older firmware leaves out (profile, data format, transforms) gets the
-/// vendor's documented default. Written is the nested form.
+/// Reads and writes the vendor's metadata JSON. Read are the flat form of firmware 1 and 2 and the
+/// nested one of the vendor's newer tools, of firmware 1.12 to 3.2; what older firmware leaves out
+/// (profile, data format, transforms) gets the vendor's documented default. Written is the nested
+/// form.
 namespace saker::lidar {
 
 /// Throws Error that names the file and the key that is missing or wrong.

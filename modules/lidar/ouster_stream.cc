@@ -1,6 +1,7 @@
 #include "saker/lidar/ouster_stream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "saker/lidar/imu_packet.h"
@@ -9,31 +10,67 @@ namespace saker::lidar {
 namespace {
 
 constexpr std::size_t kMostImuSamplesWaiting = 4096;  // 40 s at 100 Hz
+constexpr double kMostClocksApart = 10;               // seconds; one clock drives both in a sensor
+constexpr int kApartToBelieve = 3;                    // packets in a row; one may be damaged
+constexpr std::size_t kZonePacketBytes = 680;  // zone monitoring; told from others by its size
 
 }  // namespace
 
 OusterStream::OusterStream(const SensorInfo& info, bool keep_ranges)
-    : info_(info), assembler_(info, keep_ranges) {}
+    : info_(info), format_(info), assembler_(info, keep_ranges) {}
 
 void OusterStream::add(std::span<const std::uint8_t> payload) {
-  if (payload.size() == kImuPacketBytes) return add_imu(payload);
+  if (payload.size() == format_.packet_bytes()) return add_lidar(payload);
+  if (is_imu_packet(payload)) return add_imu(payload);
+  if (payload.size() != kZonePacketBytes) assembler_.add(payload);  // counts it
+}
+
+void OusterStream::add_lidar(std::span<const std::uint8_t> payload) {
+  for (int i = format_.columns_per_packet() - 1; i >= 0; --i) {
+    if (!format_.valid(payload, i)) continue;
+    last_lidar_ = format_.time(payload, i);
+    break;
+  }
   assembler_.add(payload);
 }
 
 void OusterStream::add_imu(std::span<const std::uint8_t> payload) {
-  const auto sample = decode_imu(payload, info_);
-  if (!sample) {
+  std::vector<ImuSample> samples = decode_imu(payload, info_);
+  if (samples.empty()) {
     ++bad_imu_packets_;
     return;
   }
+  if (!imu_by_arrival_ && last_lidar_ != 0) {
+    const double apart = std::abs(to_seconds(samples.back().stamp) - to_seconds(last_lidar_));
+    imu_apart_ = apart > kMostClocksApart ? imu_apart_ + 1 : 0;
+    imu_by_arrival_ = imu_apart_ >= kApartToBelieve;
+    if (imu_apart_ > 0 && !imu_by_arrival_) {
+      late_imu_samples_ += static_cast<int>(samples.size());
+      return;
+    }
+  }
+  if (imu_by_arrival_) time_by_arrival(samples);
+  for (const ImuSample& sample : samples) keep(sample);
+}
+
+void OusterStream::time_by_arrival(std::vector<ImuSample>& samples) {
+  const auto newest = static_cast<std::uint64_t>(samples.back().stamp);
+  for (ImuSample& sample : samples) {  // without a sign, as any bytes may come
+    const std::uint64_t before = newest - static_cast<std::uint64_t>(sample.stamp);
+    sample.stamp = static_cast<Time>(static_cast<std::uint64_t>(last_lidar_) - before);
+  }
+}
+
+void OusterStream::keep(const ImuSample& sample) {
   const auto newer = [](Time stamp, const ImuSample& s) { return stamp < s.stamp; };
-  const auto at = std::upper_bound(imu_.begin(), imu_.end(), sample->stamp, newer);
+  const auto at = std::upper_bound(imu_.begin(), imu_.end(), sample.stamp, newer);
   const Time before = at == imu_.begin() ? last_imu_given_ : std::prev(at)->stamp;
-  if (sample->stamp <= before) {
+  if (sample.stamp <= before) {
     ++late_imu_samples_;
     return;
   }
-  imu_.insert(at, *sample);
+  ++imu_samples_;
+  imu_.insert(at, sample);
   if (imu_.size() > kMostImuSamplesWaiting) imu_.pop_front();
 }
 
@@ -69,6 +106,8 @@ SourceCounters OusterStream::counters() const {
   counters.repeated_columns = from.repeated_columns;
   counters.missing_columns = from.missing_columns;
   counters.lost_frames = from.lost_frames;
+  counters.imu_samples = imu_samples_;
+  counters.late_imu_samples = late_imu_samples_;
   return counters;
 }
 

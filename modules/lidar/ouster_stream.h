@@ -15,9 +15,11 @@ namespace saker::lidar {
 /// One sensor's packets, lidar and inertial mixed as they arrive, to frames: the same for a capture
 /// and for sockets.
 ///
-/// Packets are told apart by their size. A frame gets the inertial samples up to its stamp; later
-/// ones wait for the next frame. Samples that are not newer than the last one given out are dropped
-/// and counted.
+/// Packets are told apart by their size and head. A frame gets the inertial samples up to its
+/// stamp; later ones wait for the next frame. Samples that are not newer than the last one given
+/// out are dropped and counted. Where the inertial unit's clock is seconds away from the lidar's,
+/// its samples get the time of the lidar packet that arrived before them instead; `imu_by_arrival`
+/// says so.
 class OusterStream {
  public:
   struct Item {
@@ -34,17 +36,26 @@ class OusterStream {
 
   [[nodiscard]] SourceCounters counters() const;
   [[nodiscard]] int late_imu_samples() const { return late_imu_samples_; }
-  [[nodiscard]] std::size_t packet_bytes() const { return assembler_.packet_bytes(); }
+  [[nodiscard]] bool imu_by_arrival() const { return imu_by_arrival_; }
+  [[nodiscard]] std::size_t packet_bytes() const { return format_.packet_bytes(); }
   [[nodiscard]] const SensorInfo& info() const { return info_; }
 
  private:
+  void add_lidar(std::span<const std::uint8_t> payload);
   void add_imu(std::span<const std::uint8_t> payload);
+  void time_by_arrival(std::vector<ImuSample>& samples);
+  void keep(const ImuSample& sample);
   [[nodiscard]] std::vector<ImuSample> imu_until(Time stamp);
 
   SensorInfo info_;
+  PacketFormat format_;
   ScanAssembler assembler_;
   std::deque<ImuSample> imu_;  // by time; the oldest are dropped beyond the ceiling
+  Time last_lidar_ = 0;        // time of the newest packet's last valid column
   Time last_imu_given_ = 0;
+  bool imu_by_arrival_ = false;
+  int imu_apart_ = 0;  // packets in a row whose time is far from the lidar's
+  int imu_samples_ = 0;
   int late_imu_samples_ = 0;
   int bad_imu_packets_ = 0;
   int next_name_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,11 +28,23 @@ struct Pixel {
 /// One column, as decoded or as it is to be sent.
 struct Column {
   Time time = 0;
-  int frame_id = 0;        ///< 0 … 65535
+  int frame_id = 0;        ///< 0 … 65535; of functional-safety sensors 0 … 2³¹ − 1
   int measurement_id = 0;  ///< column of the frame
   bool valid = true;       ///< false where the sensor's window leaves the column out
   std::vector<Pixel> pixels;
 };
+
+struct PacketSender {
+  std::uint64_t serial_number = 0;
+  std::uint32_t initialization_id = 0;  ///< changes when the sensor restarts
+
+  bool operator==(const PacketSender&) const = default;
+};
+
+/// The same of any packet with a head, inertial ones included.
+[[nodiscard]] PacketSender read_sender(std::span<const std::uint8_t> packet, PacketHeader header);
+
+inline constexpr std::size_t kPacketHeadBytes = 32;  ///< the foot is as long
 
 /// What a packet's bytes mean for one sensor.
 class PacketFormat {
@@ -47,6 +60,9 @@ class PacketFormat {
   [[nodiscard]] int measurement_id(std::span<const std::uint8_t> packet, int i) const;
   [[nodiscard]] Time time(std::span<const std::uint8_t> packet, int i) const;
   [[nodiscard]] bool valid(std::span<const std::uint8_t> packet, int i) const;
+
+  /// Who sent the packet, as its head says; nothing in the profile LEGACY.
+  [[nodiscard]] std::optional<PacketSender> sender(std::span<const std::uint8_t> packet) const;
 
   /// Range and reflectivity of each row, at `ranges[row · stride]` and so on: what a scan needs and
   /// nothing else.
@@ -72,6 +88,7 @@ class PacketFormat {
   void write_column(const Column& column, std::uint8_t* bytes) const;
 
   PacketProfile profile_;
+  PacketHeader header_;
   int rows_;
   int columns_;
   int columns_per_packet_;

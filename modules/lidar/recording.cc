@@ -3,37 +3,47 @@
 #include <vector>
 
 #include "saker/core/error.h"
+#include "saker/lidar/bags/bag_recording.h"
+#include "saker/lidar/clouds/cloud_folder.h"
 #include "saker/lidar/kitti_folder.h"
+#include "saker/lidar/osf/osf_recording.h"
 #include "saker/lidar/ouster_capture.h"
+#include "saker/lidar/recording_kind.h"
 
 namespace saker::lidar {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_capture(const fs::path& path) {
-  return path.extension() == ".pcap" || path.extension() == ".pcapng";
+/// What a file that is not known may be, to say it.
+std::string expected_kinds() {
+  return "expected a folder of scans (*.bin, PCD, PLY, .npy), a capture (*.pcap), OSF, a ROS bag "
+         "or "
+         "MCAP";
 }
 
-/// The only capture in a folder without KITTI scans; else the path itself.
-fs::path capture_in(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored) || is_kitti_folder(path)) return path;
-  std::vector<fs::path> captures;
-  for (const auto& entry : fs::directory_iterator(path, ignored)) {
-    if (is_capture(entry.path())) captures.push_back(entry.path());
+std::unique_ptr<ScanSource> open_parts(const RecordingParts& parts,
+                                       const RecordingOptions& options) {
+  const fs::path& first = parts.files.front();
+  switch (parts.kind) {
+    case RecordingKind::kFloatScans:
+      return std::make_unique<KittiFolder>(first, options.point_fields);
+    case RecordingKind::kClouds:
+      return std::make_unique<CloudFolder>(first);
+    case RecordingKind::kCapture:
+      return std::make_unique<OusterCapture>(
+          first, options.metadata.empty() ? find_metadata(first) : options.metadata,
+          options.keep_ranges, options.sensor);
+    case RecordingKind::kOsf:
+      return std::make_unique<OsfRecording>(first, options);
+    case RecordingKind::kRos1Bag:
+    case RecordingKind::kMcap:
+    case RecordingKind::kRos2Database:
+      return std::make_unique<BagRecording>(parts, options);
+    case RecordingKind::kUnknown:
+      break;
   }
-  if (captures.size() > 1) {
-    throw Error(path.string() + ": " + std::to_string(captures.size()) +
-                " captures in it, expected one: name the file");
-  }
-  return captures.empty() ? path : captures.front();
-}
-
-RecordingFormat format_of(const fs::path& path) {
-  if (fs::is_directory(path)) return RecordingFormat::kKitti;
-  if (is_capture(path)) return RecordingFormat::kOuster;
-  throw Error(path.string() + ": neither a folder of scans nor a capture (*.pcap)");
+  throw Error(first.string() + ": no recording that is known, " + expected_kinds());
 }
 
 }  // namespace
@@ -50,19 +60,36 @@ std::string SourceCounters::summary() const {
   add(repeated_columns, "repeated columns");
   add(missing_columns, "missing columns");
   add(lost_frames, "lost frames");
+  add(other_sensors, "packets of other sensors");
+  add(late_imu_samples, "late inertial samples");
   add(lost_fragments, "datagrams with fragments missing");
   if (!ended_early.empty()) text += (text.empty() ? "" : ", ") + ("ended early: " + ended_early);
   return text;
 }
 
-std::unique_ptr<ScanSource> open_recording(const fs::path& given, RecordingFormat format,
-                                           const fs::path& metadata) {
+std::unique_ptr<ScanSource> open_recording(const fs::path& path, const RecordingOptions& options) {
   std::error_code ignored;
-  if (!fs::exists(given, ignored)) throw Error("cannot read " + given.string() + ": no such file");
-  const fs::path path = format == RecordingFormat::kKitti ? given : capture_in(given);
-  if (format == RecordingFormat::kAutomatic) format = format_of(path);
-  if (format == RecordingFormat::kKitti) return std::make_unique<KittiFolder>(path);
-  return std::make_unique<OusterCapture>(path, metadata.empty() ? find_metadata(path) : metadata);
+  if (!fs::exists(path, ignored)) throw Error("cannot read " + path.string() + ": no such file");
+  RecordingParts parts = {RecordingKind::kFloatScans, {path}};
+  if (options.format != RecordingFormat::kKitti) parts = recording_parts(path);
+  if (options.format == RecordingFormat::kOuster && !parts.files.empty() &&
+      parts.kind != RecordingKind::kOsf) {
+    parts.kind = RecordingKind::kCapture;
+  }
+  if (parts.files.empty()) throw Error(path.string() + ": no scans, " + expected_kinds());
+  if (!options.point_fields.empty() && parts.kind != RecordingKind::kFloatScans) {
+    throw Error(path.string() + ": --point-fields " + options.point_fields +
+                ": only *.bin scans do not say what their points are");
+  }
+  return open_parts(parts, options);
+}
+
+std::unique_ptr<ScanSource> open_recording(const fs::path& path, RecordingFormat format,
+                                           const fs::path& metadata) {
+  RecordingOptions options;
+  options.format = format;
+  options.metadata = metadata;
+  return open_recording(path, options);
 }
 
 fs::path find_metadata(const fs::path& capture) {
@@ -70,9 +97,11 @@ fs::path find_metadata(const fs::path& capture) {
   if (!fs::is_regular_file(capture, ignored)) {
     throw Error("cannot read capture " + capture.string() + ": no such file");
   }
-  std::vector<std::string> stems = {capture.stem().string()};
-  const auto cut = stems[0].rfind('_');
-  if (cut != std::string::npos) stems.push_back(stems[0].substr(0, cut));
+  const std::string whole = capture.stem().string();
+  std::vector<std::string> stems = {whole};
+  const auto cut = whole.find_last_of("_-");
+  if (cut != std::string::npos) stems.push_back(whole.substr(0, cut));
+  stems.push_back(whole + "_0");
   std::string looked_for;
   for (const std::string& stem : stems) {
     const fs::path file = capture.parent_path() / (stem + ".json");

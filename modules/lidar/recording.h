@@ -36,11 +36,16 @@ struct SourceCounters {
   int missing_columns = 0;   ///< of the window, in frames between the first and the last
   int lost_frames = 0;       ///< of which nothing came
   int lost_fragments = 0;    ///< of which fragments were missing
+  int other_sensors = 0;     ///< packets of sensors that were not asked for
+  int imu_samples = 0;       ///< used, for information
+  int late_imu_samples = 0;  ///< not newer than those before
   std::string ended_early;   ///< why the recording ends before its end; empty when it does not
 
   /// "12 columns missing, 3 packets late", or empty when nothing was amiss.
   [[nodiscard]] std::string summary() const;
 };
+
+struct AssembledScan;
 
 class ScanSource {
  public:
@@ -59,13 +64,30 @@ class ScanSource {
 
   /// Model and mode of the sensor, "OS1-64 512x10" (sensor_info.h); empty where it does not say.
   [[nodiscard]] virtual std::string sensor_name() const { return {}; }
+
+  /// Of the frame given last, all that an Ouster sensor's packets said; null of other recordings.
+  [[nodiscard]] virtual const AssembledScan* assembled() const { return nullptr; }
 };
 
 enum class RecordingFormat { kAutomatic, kKitti, kOuster };
 
-/// A folder of KITTI scans (`*.bin`, or with `velodyne/` in it) or an Ouster capture (`*.pcap`, or
-/// a folder with one and no scans in it) with its metadata beside it (`STEM.json`, or STEM without
-/// its last `_part`) or given. Throws Error when there is nothing to read.
+/// What a recording alone does not say.
+struct RecordingOptions {
+  RecordingFormat format = RecordingFormat::kAutomatic;
+  std::filesystem::path metadata;   ///< of an Ouster sensor; else beside the recording or in it
+  std::string sensor;               ///< serial number, where a capture has several sensors
+  std::vector<std::string> topics;  ///< where a bag has several with scans or inertial samples
+  bool keep_ranges = false;         ///< `assembled` has them
+  std::string point_fields;         ///< "x,y,z,i,ring": floats of a point in `*.bin`
+};
+
+/// Whatever people have, told by its content and not by its name (docs/formats.md):
+/// folders of scans (`*.bin`, PCD, PLY, `*.npy`; in it, in `velodyne/` or as KITTI's raw recordings
+/// have them) and single ones, Ouster captures and OSF files, ROS 1 and ROS 2 bags, MCAP files.
+/// Throws Error when there is nothing to read, or when what is there can be read in several ways.
+[[nodiscard]] std::unique_ptr<ScanSource> open_recording(const std::filesystem::path& path,
+                                                         const RecordingOptions& options);
+
 [[nodiscard]] std::unique_ptr<ScanSource> open_recording(
     const std::filesystem::path& path, RecordingFormat format = RecordingFormat::kAutomatic,
     const std::filesystem::path& metadata = {});

@@ -85,6 +85,35 @@ void ScanAssembler::add_column(std::span<const std::uint8_t> packet, int i, bool
   if (valid_columns_ == info_.column_window.size(info_.columns)) end();
 }
 
+void ScanAssembler::add_frame(const WholeFrame& frame) {
+  const std::size_t columns = column_here_.size(), pixels = ranges_mm_.size();
+  if (frame.ranges_mm.size() != pixels || frame.reflectivity.size() != pixels ||
+      frame.column_time.size() != columns || frame.column_here.size() != columns) {
+    ++counters_.bad_packets;
+    return;
+  }
+  end();
+  begin(frame.frame_id);
+  for (std::size_t column = 0; column < columns; ++column) {
+    const Time time = frame.column_time[column];
+    if (frame.column_here[column] == 0 || time < 0) continue;
+    if (valid_columns_ == 0) reference_time_ = time;
+    if (!near_in_time(time)) {
+      ++counters_.bad_columns;
+      continue;
+    }
+    column_here_[column] = 1;
+    column_time_[column] = time;
+    ++valid_columns_;
+    for (int row = 0; row < info_.rows; ++row) {
+      const std::size_t to = column * info_.rows + row, from = row * columns + column;
+      ranges_mm_[to] = frame.ranges_mm[from];
+      reflectivity_[to] = frame.reflectivity[from];
+    }
+  }
+  end();
+}
+
 ScanAssembler::Verdict ScanAssembler::judge(int frame_id) const {
   if (!any_) return Verdict::kNew;
   const int ahead = frames_between(frame_id_, frame_id);

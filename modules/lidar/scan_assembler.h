@@ -44,6 +44,16 @@ class ScanAssembler {
   /// A UDP payload; any bytes are allowed. What it completes can be taken afterwards.
   void add(std::span<const std::uint8_t> packet);
 
+  /// A whole frame that was put together before: pixels row by row, as sent (staggered).
+  struct WholeFrame {
+    int frame_id = 0;
+    std::span<const std::uint32_t> ranges_mm;
+    std::span<const std::uint8_t> reflectivity;
+    std::span<const Time> column_time;
+    std::span<const std::uint8_t> column_here;  ///< not 0: the column came
+  };
+  void add_frame(const WholeFrame& frame);
+
   /// The recording is over: ends the frame under way.
   void finish();
 

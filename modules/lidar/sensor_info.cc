@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "saker/core/error.h"
 
@@ -13,6 +14,22 @@ namespace {
 // its metadata says.
 constexpr std::array<double, 4> kOs1AzimuthDeg = {4.22, 1.41, -1.41, -4.22};
 constexpr double kOs1HighestBeamDeg = 22.5;
+
+using P = PacketProfile;
+constexpr std::array<std::pair<PacketProfile, const char*>, 13> kProfiles = {
+    {{P::kLegacy, "LEGACY"},
+     {P::kRng19Rfl8Sig16Nir16, "RNG19_RFL8_SIG16_NIR16"},
+     {P::kRng19Rfl8Sig16Nir16Dual, "RNG19_RFL8_SIG16_NIR16_DUAL"},
+     {P::kRng15Rfl8Nir8, "RNG15_RFL8_NIR8"},
+     {P::kRng15Rfl8Nir8Dual, "RNG15_RFL8_NIR8_DUAL"},
+     {P::kFusaRng15Rfl8Nir8Dual, "FUSA_RNG15_RFL8_NIR8_DUAL"},
+     {P::kRng15Rfl8Win8, "RNG15_RFL8_WIN8"},
+     {P::kRng15Rfl8Nir8Zone16, "RNG15_RFL8_NIR8_ZONE16"},
+     {P::kRng19Rfl8Sig16Nir16Zone16, "RNG19_RFL8_SIG16_NIR16_ZONE16"},
+     {P::kRng19Rfl8Sig16Zone16Dual, "RNG19_RFL8_SIG16_ZONE16_DUAL"},
+     {P::kRng19Rfl8Sig16Nir16Rgb16, "RNG19_RFL8_SIG16_NIR16_RGB16"},
+     {P::kRng19Rfl8Sig16Nir16Rgb16Dual, "RNG19_RFL8_SIG16_NIR16_RGB16_DUAL"},
+     {P::kFiveWordPixel, "FIVE_WORD_PIXEL"}}};
 
 SE3 half_turn(double height_m) {
   SE3 T = SE3::Identity();
@@ -34,11 +51,12 @@ void expect(bool holds, const std::string& where, const std::string& what) {
 }
 
 void check_size(const SensorInfo& info, const std::string& where) {
-  expect(one_of(info.rows, {16, 32, 64, 128}), where,
-         "pixels_per_column: " + std::to_string(info.rows) + ", expected 16, 32, 64 or 128");
-  expect(
-      one_of(info.columns, {512, 1024, 2048, 4096}), where,
-      "columns_per_frame: " + std::to_string(info.columns) + ", expected 512, 1024, 2048 or 4096");
+  expect(one_of(info.rows, {4, 8, 16, 32, 48, 64, 128, 256}), where,
+         "pixels_per_column: " + std::to_string(info.rows) +
+             ", expected 4, 8, 16, 32, 48, 64, 128 or 256");
+  expect(one_of(info.columns, {512, 1024, 1280, 2048, 4096}), where,
+         "columns_per_frame: " + std::to_string(info.columns) +
+             ", expected 512, 1024, 1280, 2048 or 4096");
   expect(info.columns_per_packet > 0 && info.columns_per_packet <= 128 &&
              info.columns % info.columns_per_packet == 0,
          where,
@@ -63,23 +81,18 @@ void check_rows(const std::vector<T>& values, const SensorInfo& info, const std:
 }  // namespace
 
 const char* to_string(PacketProfile profile) {
-  switch (profile) {
-    case PacketProfile::kLegacy:
-      return "LEGACY";
-    case PacketProfile::kRng19Rfl8Sig16Nir16:
-      return "RNG19_RFL8_SIG16_NIR16";
-    case PacketProfile::kRng19Rfl8Sig16Nir16Dual:
-      return "RNG19_RFL8_SIG16_NIR16_DUAL";
-    case PacketProfile::kRng15Rfl8Nir8:
-      return "RNG15_RFL8_NIR8";
+  for (const auto& [known, name] : kProfiles) {
+    if (known == profile) return name;
   }
   return "";
 }
 
 const std::vector<PacketProfile>& packet_profiles() {
-  static const std::vector<PacketProfile> profiles = {
-      PacketProfile::kLegacy, PacketProfile::kRng19Rfl8Sig16Nir16,
-      PacketProfile::kRng19Rfl8Sig16Nir16Dual, PacketProfile::kRng15Rfl8Nir8};
+  static const std::vector<PacketProfile> profiles = [] {
+    std::vector<PacketProfile> all;
+    for (const auto& [profile, name] : kProfiles) all.push_back(profile);
+    return all;
+  }();
   return profiles;
 }
 
@@ -89,6 +102,7 @@ SensorInfo SensorInfo::make_os1(int rows, int columns, PacketProfile profile) {
   info.rows = rows;
   info.columns = columns;
   info.profile = profile;
+  if (profile == PacketProfile::kFusaRng15Rfl8Nir8Dual) info.header = PacketHeader::kFusa;
   info.column_window = {0, columns - 1};
   for (int row = 0; row < rows; ++row) {
     const double azimuth_deg = kOs1AzimuthDeg[static_cast<std::size_t>(row) % 4];
@@ -120,6 +134,9 @@ void check(const SensorInfo& info, const std::string& where) {
          "column_window: [" + std::to_string(info.column_window.first) + ", " +
              std::to_string(info.column_window.last) + "], expected columns from 0 to " +
              std::to_string(info.columns - 1));
+  const auto is_zero = [](double angle) { return angle == 0; };
+  expect(!std::all_of(info.beam_altitude_deg.begin(), info.beam_altitude_deg.end(), is_zero), where,
+         "beam_altitude_angles: all 0, expected the angles of the beams");
   for (const double altitude : info.beam_altitude_deg) {
     expect(std::abs(altitude) <= 90, where,
            "beam_altitude_angles: " + std::to_string(altitude) + ", expected -90 to 90");

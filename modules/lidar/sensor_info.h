@@ -14,13 +14,25 @@
 /// `T_sensor_lidar` and `T_sensor_imu` are in metres here, in millimetres in the file.
 namespace saker::lidar {
 
-/// Layout of the pixels of a packet. Of the DUAL profile the first return is read.
+/// Layout of the pixels of a packet. Of the profiles with two returns the first is read.
 enum class PacketProfile {
   kLegacy,
   kRng19Rfl8Sig16Nir16,
   kRng19Rfl8Sig16Nir16Dual,
-  kRng15Rfl8Nir8
+  kRng15Rfl8Nir8,
+  kRng15Rfl8Nir8Dual,
+  kFusaRng15Rfl8Nir8Dual,
+  kRng15Rfl8Win8,
+  kRng15Rfl8Nir8Zone16,
+  kRng19Rfl8Sig16Nir16Zone16,
+  kRng19Rfl8Sig16Zone16Dual,
+  kRng19Rfl8Sig16Nir16Rgb16,
+  kRng19Rfl8Sig16Nir16Rgb16Dual,
+  kFiveWordPixel
 };
+
+/// What a packet begins with: functional-safety sensors count frames with 32 bits.
+enum class PacketHeader { kStandard, kFusa };
 
 [[nodiscard]] const char* to_string(PacketProfile profile);  ///< the vendor's name, as in metadata
 [[nodiscard]] const std::vector<PacketProfile>& packet_profiles();
@@ -41,11 +53,12 @@ struct SensorInfo {
   std::string serial_number;
   int initialization_id = 0;  ///< changes when the sensor restarts
 
-  int rows = 0;     ///< beams: 16, 32, 64 or 128
-  int columns = 0;  ///< in a whole revolution: 512, 1024 or 2048
+  int rows = 0;     ///< beams: 4 to 256
+  int columns = 0;  ///< in a whole revolution: 512 to 4096
   int columns_per_packet = 16;
   double frame_rate_hz = 10;
   PacketProfile profile = PacketProfile::kLegacy;
+  PacketHeader header = PacketHeader::kStandard;
   ColumnWindow column_window;
   std::vector<int>
       pixel_shift_by_row;  ///< columns by which a row moves to the right when it is destaggered

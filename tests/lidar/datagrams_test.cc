@@ -178,5 +178,43 @@ TEST(Reassembly, CutAndDamagedPacketsNeverGiveMoreThanTheyHold) {
   }
 }
 
+/// One fragment of a UDP datagram over IPv6.
+Bytes ipv6_fragment(const Bytes& body, std::size_t offset, bool more, std::uint8_t source) {
+  Bytes bytes(48 + body.size(), 0);
+  bytes[0] = 0x60;
+  write_network16(static_cast<unsigned>(8 + body.size()), &bytes[4]);
+  bytes[6] = 44;
+  bytes[8] = 0xFE;
+  bytes[9] = 0x80;
+  bytes[23] = source;
+  bytes[40] = 17;
+  write_network16(static_cast<unsigned>(offset) | (more ? 1 : 0), &bytes[42]);
+  bytes[47] = 9;  // identification
+  std::ranges::copy(body, bytes.begin() + 48);
+  return bytes;
+}
+
+TEST(Reassembly, FragmentsOfIpv6AreJoinedBySourceInAnyOrder) {
+  const Bytes data = payload(1992), whole = udp(data);
+  const Bytes first(whole.begin(), whole.begin() + 1200), second(whole.begin() + 1200, whole.end());
+  Reassembly reassembly;
+  EXPECT_FALSE(reassembly.add(ipv6_fragment(second, 1200, false, 1), 0));
+  EXPECT_FALSE(reassembly.add(ipv6_fragment(first, 0, true, 2), 0));  // of another sensor
+  const Bytes last = ipv6_fragment(first, 0, true, 1);
+  const auto datagram = reassembly.add(last, 0);
+  ASSERT_TRUE(datagram);
+  EXPECT_TRUE(std::ranges::equal(datagram->payload, data));
+  EXPECT_EQ(to_string(datagram->source), "fe80::1");
+  EXPECT_EQ(reassembly.unfinished(), 1);
+}
+
+TEST(Reassembly, SaysWhereADatagramComesFrom) {
+  Reassembly reassembly;
+  const Bytes ip = ipv4(udp(payload(48)));
+  const auto datagram = reassembly.add(ip, 5);
+  ASSERT_TRUE(datagram);
+  EXPECT_EQ(to_string(datagram->source), "10.0.0.0");
+}
+
 }  // namespace
 }  // namespace saker::lidar

@@ -150,7 +150,8 @@ TEST(Metadata, WrongFormatsAreNamed) {
       {"columns_per_packet", 1e300},     {"column_window", {-1, 12}}};
   for (const auto& [key, value] : wrong) {
     Json json = flat();
-    json["data_format"] = {{key, value}};
+    json["data_format"] = {{"columns_per_frame", 1024}, {"pixels_per_column", 16}};
+    json["data_format"][key] = value;
     EXPECT_NE(message_of(json).find(key), std::string::npos) << message_of(json);
   }
 }
@@ -175,6 +176,77 @@ TEST(Metadata, FilesRoundTrip) {
   const SensorInfo info = SensorInfo::make_os1(128, 512, PacketProfile::kRng15Rfl8Nir8);
   write_metadata(info, folder / "a.json");
   expect_equal(read_metadata(folder / "a.json"), info);
+}
+
+Json nested() {
+  return Json::parse(
+      metadata_json(SensorInfo::make_os1(64, 1024, PacketProfile::kRng19Rfl8Sig16Nir16)));
+}
+
+TEST(Metadata, SectionsThatOldFirmwareDoesNotKnowGetTheDefaults) {
+  Json json = nested();
+  json["lidar_data_format"] = "error: Command not recognized.";
+  json["calibration_status"] = "error: Command not recognized.";
+  json["client_version"] = "ouster_client 0.2.2";
+  json["beam_intrinsics"].erase("lidar_origin_to_beam_origin_mm");
+  json["beam_intrinsics"].erase("beam_to_lidar_transform");
+  json["sensor_info"]["prod_line"] = "OS-1-64";
+  const SensorInfo info = parse_metadata(json.dump(), "old");
+  EXPECT_EQ(info.profile, PacketProfile::kLegacy);
+  EXPECT_EQ(info.columns, 1024);
+  EXPECT_EQ(info.rows, 64);
+}
+
+TEST(Metadata, AMixtureOfBothFormsIsRefusedByItsKey) {
+  Json json = nested();
+  json["prod_line"] = "OS-1-64";
+  EXPECT_NE(message_of(json).find("prod_line"), std::string::npos) << message_of(json);
+  json = flat();
+  json["calibration_status"] = {{"reflectivity", {{"valid", true}}}};
+  EXPECT_NE(message_of(json).find("calibration_status"), std::string::npos) << message_of(json);
+}
+
+TEST(Metadata, WhatAVendorsClientWroteHasEverySection) {
+  Json json = nested();
+  json["client_version"] = "ouster_client 0.5.3";
+  json["calibration_status"] = {{"reflectivity", {{"valid", true}}}};
+  EXPECT_EQ(message_of(json), "accepted");
+  for (const char* section : {"calibration_status", "sensor_info"}) {
+    Json without = json;
+    without.erase(section);
+    EXPECT_NE(message_of(without).find(std::string(section) + ": missing"), std::string::npos);
+  }
+}
+
+TEST(Metadata, AFormatHasItsRowsAndColumns) {
+  for (const char* key : {"columns_per_frame", "pixels_per_column"}) {
+    Json json = nested();
+    json["lidar_data_format"].erase(key);
+    EXPECT_NE(message_of(json).find(std::string(key) + ": missing"), std::string::npos);
+  }
+}
+
+TEST(Metadata, BeamsThatAreAllZeroAreRefused) {
+  Json json = nested();
+  json["beam_intrinsics"]["beam_altitude_angles"] = std::vector<int>(64, 0);
+  EXPECT_NE(message_of(json).find("beam_altitude_angles: all 0"), std::string::npos);
+}
+
+TEST(Metadata, AnUnknownProfileIsNamedWithThoseThatAreKnown) {
+  Json json = nested();
+  json["lidar_data_format"]["udp_profile_lidar"] = "RNG99";
+  const std::string message = message_of(json);
+  EXPECT_NE(message.find("RNG99"), std::string::npos);
+  EXPECT_NE(message.find("RNG15_RFL8_NIR8_DUAL"), std::string::npos);
+}
+
+TEST(Metadata, FunctionalSafetyHeadsAreToldByTheProfileOrTheirKey) {
+  Json json = nested();
+  EXPECT_EQ(parse_metadata(json.dump(), "a").header, PacketHeader::kStandard);
+  json["lidar_data_format"]["header_type"] = "FUSA";
+  EXPECT_EQ(parse_metadata(json.dump(), "a").header, PacketHeader::kFusa);
+  json["lidar_data_format"]["header_type"] = "OTHER";
+  EXPECT_NE(message_of(json).find("header_type: OTHER"), std::string::npos);
 }
 
 }  // namespace

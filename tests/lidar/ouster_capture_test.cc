@@ -117,6 +117,11 @@ TEST(OpenRecording, FindsMetadataByTheStemOrWithoutItsLastPart) {
   EXPECT_EQ(find_metadata(folder / "drive_000.pcap"), folder / "drive.json");
   std::ofstream(folder / "drive_000.json") << "{}";
   EXPECT_EQ(find_metadata(folder / "drive_000.pcap"), folder / "drive_000.json");
+  std::ofstream(folder / "drive-001.PCAP") << "capture";
+  EXPECT_EQ(find_metadata(folder / "drive-001.PCAP"), folder / "drive.json");
+  std::ofstream(folder / "other.pcap") << "capture";
+  std::ofstream(folder / "other_0.json") << "{}";
+  EXPECT_EQ(find_metadata(folder / "other.pcap"), folder / "other_0.json");
 }
 
 TEST(OpenRecording, RefusesWhatIsNoRecording) {

@@ -18,7 +18,20 @@ std::size_t documented_bytes(PacketProfile profile) {
     case PacketProfile::kRng19Rfl8Sig16Nir16Dual:
       return 33024;
     case PacketProfile::kRng15Rfl8Nir8:
+    case PacketProfile::kRng15Rfl8Win8:
       return 8448;
+    case PacketProfile::kRng15Rfl8Nir8Dual:
+    case PacketProfile::kFusaRng15Rfl8Nir8Dual:
+    case PacketProfile::kRng15Rfl8Nir8Zone16:
+      return 16640;
+    case PacketProfile::kRng19Rfl8Sig16Nir16Zone16:
+      return 24832;
+    case PacketProfile::kRng19Rfl8Sig16Zone16Dual:
+    case PacketProfile::kRng19Rfl8Sig16Nir16Rgb16:
+      return 33024;
+    case PacketProfile::kRng19Rfl8Sig16Nir16Rgb16Dual:
+    case PacketProfile::kFiveWordPixel:
+      return 41216;
   }
   return 0;
 }
@@ -32,10 +45,15 @@ Column random_column(const SensorInfo& info, core::Rng& rng) {
     Pixel pixel;
     pixel.range_mm = static_cast<std::uint32_t>(8 * rng.index(32768));
     pixel.reflectivity = static_cast<std::uint8_t>(rng.index(256));
-    if (info.profile != PacketProfile::kRng15Rfl8Nir8) {
+    const std::string fields = to_string(info.profile);
+    const bool words =
+        info.profile == PacketProfile::kLegacy || info.profile == PacketProfile::kFiveWordPixel;
+    if (words || fields.find("SIG16") != std::string::npos) {
       pixel.signal = static_cast<std::uint16_t>(rng.index(65536));
     }
-    pixel.near_infrared = static_cast<std::uint16_t>(16 * rng.index(256));
+    if (words || fields.find("NIR") != std::string::npos) {
+      pixel.near_infrared = static_cast<std::uint16_t>(16 * rng.index(256));
+    }
     column.pixels.push_back(pixel);
   }
   return column;
@@ -106,6 +124,31 @@ TEST(Packet, Rng15RoundsDownToEightMillimetres) {
   EXPECT_EQ(format.representable_mm(8007), 8000U);
   EXPECT_EQ(format.representable_mm(262143), 262136U);
   EXPECT_EQ(format.representable_mm(262144), 0U);
+}
+
+TEST(Packet, SaysWhoSentIt) {
+  for (const PacketProfile profile : packet_profiles()) {
+    SensorInfo info = SensorInfo::make_os1(16, 512, profile);
+    info.serial_number = "122246000293";
+    info.initialization_id = 390076;
+    core::Rng rng(3);
+    const PacketFormat format(info);
+    const std::vector<Column> columns = {random_column(info, rng)};
+    const auto sender = format.sender(format.encode(columns));
+    ASSERT_EQ(sender.has_value(), profile != PacketProfile::kLegacy);
+    if (!sender) continue;
+    EXPECT_EQ(sender->serial_number, 122246000293U) << to_string(profile);
+    EXPECT_EQ(sender->initialization_id, 390076U) << to_string(profile);
+  }
+}
+
+TEST(Packet, FunctionalSafetySensorsCountFramesBeyond16Bits) {
+  const SensorInfo info = SensorInfo::make_os1(16, 512, PacketProfile::kFusaRng15Rfl8Nir8Dual);
+  const PacketFormat format(info);
+  core::Rng rng(3);
+  Column column = random_column(info, rng);
+  column.frame_id = 1'000'003;
+  EXPECT_EQ(format.frame_id(format.encode(std::vector<Column>{column}), 0), 1'000'003);
 }
 
 }  // namespace

@@ -11,13 +11,13 @@
 #include "saker/segmentation/segmentation.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
+#include "tools/saker/recording_input.h"
 
 namespace saker::tools {
 namespace {
 
 struct SegmentOptions {
-  std::string input;
-  std::string metadata;
+  RecordingInput input;
 };
 
 template <class T>
@@ -40,9 +40,7 @@ void write_labels(const OutputFolder& out, const std::string& name, const lidar:
 int segment(const SegmentOptions& options, const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common).autonomy;
   segmentation::Segmentation stage(config.segmentation, config.objects);
-  const auto source =
-      lidar::open_recording(options.input, lidar::RecordingFormat::kAutomatic, options.metadata);
-  if (const std::string note = source->note(); !note.empty()) spdlog::info("{}", note);
+  const auto source = options.input.open();
   const OutputFolder out(common);
   out.folder("labels");
   out.folder("probability");
@@ -58,7 +56,7 @@ int segment(const SegmentOptions& options, const CommonOptions& common) {
     progress.update(++done);
   }
   spdlog::info("{} scans, {} of them could not be read", done, faulty);
-  if (done == faulty) throw Error(options.input + ": no scan could be read");
+  if (done == faulty) throw Error(options.input.path + ": no scan could be read");
   return 0;
 }
 
@@ -73,10 +71,7 @@ void add_segment(Commands& commands) {
        .output = Output::folder,
        .example = "saker segment drive/velodyne -o out"},
       [options](const CommonOptions& common) { return segment(*options, common); });
-  app.add_option("INPUT", options->input, "folder of KITTI scans, or an Ouster capture (*.pcap)")
-      ->required();
-  app.add_option("--meta", options->metadata, "metadata (JSON) of a capture; else beside it")
-      ->type_name("FILE");
+  add_recording_input(app, "INPUT", options->input);
 }
 
 }  // namespace saker::tools

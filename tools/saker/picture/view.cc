@@ -10,6 +10,7 @@
 #include "tools/saker/configuration.h"
 #include "tools/saker/picture/picture.h"
 #include "tools/saker/picture/scan_picture.h"
+#include "tools/saker/recording_input.h"
 
 namespace saker::tools {
 namespace {
@@ -18,27 +19,25 @@ namespace {
 constexpr double kRunUp_s = 1;
 
 struct ViewOptions {
-  std::string input;
-  std::string metadata;
+  RecordingInput input;
   int scan = 0;
 };
 
 /// The scan and those of the `span` before it, oldest first. Throws Error where it cannot be read.
 std::deque<lidar::Frame> read_frames(const ViewOptions& options, Time span) {
-  const auto source =
-      lidar::open_recording(options.input, lidar::RecordingFormat::kAutomatic, options.metadata);
+  const auto source = options.input.open();
   std::deque<lidar::Frame> frames;
   for (int i = 0; i <= options.scan; ++i) {
     auto frame = source->next();
     if (!frame) {
-      throw Error(fmt::format("{}: --scan {}: there are {} scans, the first is 0", options.input,
-                              options.scan, i));
+      throw Error(fmt::format("{}: --scan {}: there are {} scans, the first is 0",
+                              options.input.path, options.scan, i));
     }
     frames.push_back(std::move(*frame));
     while (frames.front().scan.stamp < frames.back().scan.stamp - span) frames.pop_front();
   }
   if (const lidar::Frame& wanted = frames.back(); !wanted.fault.empty()) {
-    throw Error(fmt::format("{}: scan {}: {}", options.input, options.scan, wanted.fault));
+    throw Error(fmt::format("{}: scan {}: {}", options.input.path, options.scan, wanted.fault));
   }
   return frames;
 }
@@ -86,7 +85,7 @@ int view(const ViewOptions& options, const CommonOptions& common) {
   const auto frames = read_frames(options, from_seconds(config.detection.window_s + kRunUp_s));
   const auto window = labelled_window(frames, config);
   if (window.empty() || window.back().stamp != frames.back().scan.stamp) {
-    throw Error(fmt::format("{}: scan {} is not newer than the one before it", options.input,
+    throw Error(fmt::format("{}: scan {} is not newer than the one before it", options.input.path,
                             options.scan));
   }
   const objects::Detections detections = detection.detect(window);
@@ -112,14 +111,11 @@ void add_view(Commands& commands) {
                     .output = Output::file,
                     .example = "saker view drive/ --scan 100 -o scan.png"},
                    [options](const CommonOptions& common) { return view(*options, common); });
-  app.add_option("INPUT", options->input, "folder of KITTI scans, or an Ouster capture (*.pcap)")
-      ->required();
+  add_recording_input(app, "INPUT", options->input);
   app.add_option("--scan", options->scan, "which scan, in their order; the first is 0")
       ->required()
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
-  app.add_option("--meta", options->metadata, "metadata (JSON) of a capture; else beside it")
-      ->type_name("FILE");
 }
 
 }  // namespace saker::tools

@@ -16,6 +16,7 @@
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 #include "tools/saker/picture/map_picture.h"
+#include "tools/saker/recording_input.h"
 #include "tools/saker/replay/run_recorder.h"
 #include "tools/saker/replay/trajectory_truth.h"
 
@@ -23,9 +24,8 @@ namespace saker::tools {
 namespace {
 
 struct ReplayOptions {
-  std::string input;
+  RecordingInput input;
   std::string format = "auto";
-  std::string metadata;
   std::string truth;
 };
 
@@ -35,10 +35,13 @@ const std::map<std::string, lidar::RecordingFormat> kFormats = {
     {"ouster", lidar::RecordingFormat::kOuster}};
 
 std::unique_ptr<lidar::ScanSource> open_input(const ReplayOptions& options) {
+  const std::string& path = options.input.path;
   const bool log =
-      options.format == "lcm" || (options.format == "auto" && flight::is_lcm_log(options.input));
-  if (log) return std::make_unique<flight::ScanLog>(options.input);
-  return lidar::open_recording(options.input, kFormats.at(options.format), options.metadata);
+      options.format == "lcm" || (options.format == "auto" && flight::is_lcm_log(path));
+  if (log) return std::make_unique<flight::ScanLog>(path);
+  RecordingInput input = options.input;
+  input.options.format = kFormats.at(options.format);
+  return input.open();
 }
 
 /// Passes frames on, shows progress and times the reading.
@@ -91,6 +94,9 @@ nlohmann::json source_figures(const lidar::SourceCounters& counters) {
           {"late_packets", counters.late_packets},
           {"repeated_columns", counters.repeated_columns},
           {"missing_columns", counters.missing_columns},
+          {"other_sensors", counters.other_sensors},
+          {"imu_samples", counters.imu_samples},
+          {"late_imu_samples", counters.late_imu_samples},
           {"lost_fragments", counters.lost_fragments},
           {"ended_early", counters.ended_early}};
 }
@@ -123,6 +129,11 @@ void report(const nlohmann::json& results) {
   for (const auto& scan : results["scans_not_registered"]) {
     spdlog::warn("scan {}: {}", scan["name"].get<std::string>(), scan["reason"].get<std::string>());
   }
+  if (const int late = results["source"]["late_imu_samples"]; late > 0) {
+    spdlog::warn("{} of {} inertial samples are not newer than those before: not used", late,
+                 late + results["source"]["imu_samples"].get<int>());
+  }
+  if (results["source"]["imu_samples"] == 0) spdlog::info("without inertial samples");
   if (const std::string cause = results["source"]["ended_early"]; !cause.empty()) {
     spdlog::warn("the recording ends early: {}", cause);
   }
@@ -136,7 +147,6 @@ void report(const nlohmann::json& results) {
 int replay(const ReplayOptions& options, const CommonOptions& common) {
   const autonomy::Config config = read_configuration(common).autonomy;
   const auto source = open_input(options);
-  if (const std::string note = source->note(); !note.empty()) spdlog::info("{}", note);
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth, config.objects);
   core::Timings timings;
@@ -153,7 +163,7 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (result.scans.empty())
-    throw Error(fmt::format("{}: no scan in it, expected at least one", options.input));
+    throw Error(fmt::format("{}: no scan in it, expected at least one", options.input.path));
 
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
@@ -183,16 +193,9 @@ void add_replay(Commands& commands) {
                     .output = Output::folder,
                     .example = "saker replay drive/ -o out --threads 2"},
                    [options](const CommonOptions& common) { return replay(*options, common); });
-  app.add_option("INPUT", options->input,
-                 "a folder of KITTI scans (*.bin, or with velodyne/ in it), an Ouster capture "
-                 "(*.pcap) or a log of lcm-logger on the bulk network (scans with reflectivity, "
-                 "deskewed, without "
-                 "their poses)")
-      ->required();
+  add_recording_input(app, "INPUT", options->input);
   app.add_option("--format", options->format, "kitti, ouster or lcm; found out when not given")
       ->check(CLI::IsMember({"auto", "kitti", "ouster", "lcm"}));
-  app.add_option("--meta", options->metadata,
-                 "the sensor's metadata; beside the capture when not given");
   app.add_option("--truth", options->truth, "a truth.json: drawn into map.png, and compared with");
 }
 
