@@ -1,0 +1,60 @@
+#include <spdlog/spdlog.h>
+
+#include "flight/bus/presence.h"
+#include "flight/bus/priority.h"
+#include "flight/mavlink/mavlink_process.h"
+#include "flight/process/process.h"
+#include "flight/process/service.h"
+#include "saker/core/config_io.h"
+#include "saker/core/error.h"
+
+namespace saker::flight::mavlink {
+namespace {
+
+using Steady = MavlinkProcess::Steady;
+
+constexpr int kPriority = 50;                     // as what flies: the vehicle hangs on it
+constexpr std::chrono::milliseconds kLongest{4};  // between looks at the line
+
+/// One thread: waits for messages of the bus, looks at the line.
+void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
+  Service service;
+  service.ready();
+  Steady::time_point next_announcement = Steady::now();
+  while (stop_requests() == 0) {
+    if (bus.handle(kLongest) < 0) throw Error("the LCM network is gone");
+    bridge.step();
+    service.alive(Steady::now());
+    if (Steady::now() < next_announcement) continue;
+    presence.announce();
+    next_announcement = Steady::now() + Presence::kPeriod;
+  }
+  service.stopping();
+}
+
+int run(const ProcessOptions& options) {
+  const auto config =
+      core::load_config<MavlinkProcessConfig>(options.config_file, options.settings);
+  Bus bus(config.process.bus, options.robot);
+  Presence presence(bus, "saker-mavlink");
+  presence.claim();
+  MavlinkProcess bridge(config.mavlink, bus);
+  if (const std::string fault = take_priority(kPriority); !fault.empty()) spdlog::warn(fault);
+  spdlog::info("listens as {}, autopilot {} on {}", options.robot,
+               to_string(config.mavlink.bridge.autopilot), config.mavlink.line);
+  serve(bus, presence, bridge);
+  spdlog::info("ends as asked");
+  return 0;
+}
+
+}  // namespace
+}  // namespace saker::flight::mavlink
+
+int main(int argc, char** argv) {
+  return saker::flight::run_program(
+      {.name = "saker-mavlink",
+       .does = "The bridge to PX4 and ArduPilot: the flight-controller interface of one robot as "
+               "MAVLink 2.",
+       .run = saker::flight::mavlink::run},
+      argc, argv);
+}

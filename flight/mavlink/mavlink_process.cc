@@ -1,0 +1,165 @@
+#include "flight/mavlink/mavlink_process.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "flight/bus/messages.h"
+
+namespace saker::flight::mavlink {
+namespace {
+
+constexpr Time kStatePeriod = kNanosecondsPerSecond / 50;
+constexpr Time kHealthPeriod = kNanosecondsPerSecond;
+constexpr Time kPause = kNanosecondsPerSecond / 20;  // of the line: a frame takes 12 ms at 230400
+constexpr int kMostReads = 64;                       // in one step
+
+Time host_now() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+SigningTime signing_now() {
+  using namespace std::chrono;
+  return signing_time(duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
+}
+
+std::optional<SigningKey> key_of(const std::string& file) {
+  if (file.empty()) return std::nullopt;
+  return read_signing_key(file);
+}
+
+counter_t counter(const char* name, long value) {
+  counter_t message{};
+  message.name = name;
+  message.value = value;
+  return message;
+}
+
+}  // namespace
+
+MavlinkProcess::MavlinkProcess(const MavlinkConfig& config, Bus& bus)
+    : config_(config),
+      bus_(bus),
+      bridge_(config.bridge, key_of(config.signing_key)),
+      line_(parsed_address(config.line)) {
+  subscribe();
+}
+
+void MavlinkProcess::subscribe() {
+  bus_.subscribe<odometry_t>([this](const odometry_t& message) {
+    const auto odometry = from_lcm(message);
+    if (!odometry) return false;
+    const LoopMeter::Run run(odometry_meter_);
+    bridge_.hear(*odometry, host_now());
+    write_line();
+    return true;
+  });
+  bus_.subscribe<setpoint_t>([this](const setpoint_t& message) {
+    const auto setpoint = from_lcm(message);
+    if (setpoint) bridge_.hear(*setpoint, host_now());
+    return setpoint.has_value();
+  });
+  bus_.subscribe<command_t>([this](const command_t& message) {
+    const auto command = from_lcm(message);
+    if (command) bridge_.hear(*command, host_now());
+    return command.has_value();
+  });
+}
+
+void MavlinkProcess::step() {
+  const LoopMeter::Run run(line_meter_);
+  line_.step(host_now());
+  read_line();
+  const Time now = host_now();
+  bridge_.step(now, signing_now());
+  for (saker::CommandAck& answer : bridge_.take_answers(now)) {
+    answer.stamp = bridge_.odometry().clock().sensor(now).value_or(0);
+    not_sent_ += !bus_.publish(to_lcm(answer));
+  }
+  write_line();
+  if (now >= next_state_) say_state(now);
+  if (now >= next_health_) say_health(now);
+  log_changes();
+}
+
+void MavlinkProcess::read_line() {
+  std::array<std::uint8_t, 2048> buffer;
+  for (int i = 0; i < kMostReads; ++i) {
+    const Time now = host_now();
+    const auto bytes = line_.read(buffer, now);
+    if (bytes.empty()) break;
+    bridge_.hear_bytes(bytes, now, signing_now());
+    last_bytes_ = now;
+    settled_ = false;
+    if (line_.in_datagrams()) bridge_.settle(now, signing_now());
+  }
+  if (settled_ || host_now() - last_bytes_ < kPause) return;
+  bridge_.settle(host_now(), signing_now());
+  settled_ = true;
+}
+
+void MavlinkProcess::write_line() {
+  for (const FrameBytes& frame : bridge_.take_frames()) line_.write(frame.span());
+}
+
+void MavlinkProcess::say_state(Time now) {
+  next_state_ = now - next_state_ > kStatePeriod ? now + kStatePeriod : next_state_ + kStatePeriod;
+  if (const auto state = bridge_.vehicle_state(now)) not_sent_ += !bus_.publish(to_lcm(*state));
+}
+
+void MavlinkProcess::say_health(Time now) {
+  next_health_ = now + kHealthPeriod;
+  const auto& reader = bridge_.reader().counters();
+  const auto& odometry = bridge_.odometry().counters();
+  const double latency_ms = bridge_.odometry().latency_s() * 1e3;
+  const auto offset = bridge_.time_sync().offset(now);
+  health_t health{};
+  health.utime = to_utime(bridge_.odometry().clock().sensor(now).value_or(0));
+  health.process = "saker-mavlink";
+  health.loops = {line_meter_.take_period(std::chrono::nanoseconds(kHealthPeriod), NAN, 0),
+                  odometry_meter_.take_period(std::chrono::nanoseconds(kHealthPeriod), latency_ms,
+                                              line_.counters().dropped)};
+  health.num_loops = static_cast<std::int32_t>(health.loops.size());
+  health.counters = {counter("frames", reader.frames),
+                     counter("damaged", reader.damaged),
+                     counter("forged", reader.forged + reader.unsigned_),
+                     counter("odometry", bridge_.counters().odometry),
+                     counter("odometry_refused", odometry.refused + odometry.lies),
+                     counter("resets", odometry.resets),
+                     counter("setpoints", bridge_.counters().setpoints),
+                     counter("expired", bridge_.setpoints().counters().expired),
+                     counter("commands", bridge_.counters().commands),
+                     counter("losses", bridge_.counters().losses),
+                     counter("not_finite", bridge_.counters().not_finite),
+                     counter("line_lost", line_.counters().lost),
+                     counter("bytes_sent", line_.counters().sent),
+                     counter("bytes_received", line_.counters().received),
+                     counter("reboots", bridge_.time_sync().restarts()),
+                     counter("not_sent", not_sent_)};
+  if (offset) health.counters.push_back(counter("time_bound_us", offset->bound / 1000));
+  health.num_counters = static_cast<std::int32_t>(health.counters.size());
+  not_sent_ += !bus_.publish(health);
+}
+
+/// One line an event: who is there, who flies, and why.
+void MavlinkProcess::log_changes() {
+  const Time now = host_now();
+  std::string line;
+  if (!line_.is_open())
+    line = line_.fault();
+  else if (!bridge_.autopilot().refusal().empty())
+    line = bridge_.autopilot().refusal();
+  else if (!bridge_.autopilot().connected(now))
+    line = fmt::format("hears no autopilot on {}", config_.line);
+  else if (!bridge_.cause().empty())
+    line = bridge_.cause();
+  else
+    line = fmt::format("{} is system {}, {}", to_string(config_.bridge.autopilot),
+                       bridge_.autopilot().system(),
+                       bridge_.autopilot().state().armed ? "armed" : "not armed");
+  if (line == logged_) return;
+  logged_ = line;
+  spdlog::info("{}", line);
+}
+
+}  // namespace saker::flight::mavlink

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flight/bus/bus.h"
+#include "flight/mavlink/bridge.h"
+#include "flight/mavlink/line.h"
+#include "flight/process/configuration.h"
+#include "flight/process/loop_meter.h"
+
+namespace saker::flight::mavlink {
+
+struct MavlinkConfig {
+  BridgeConfig bridge;
+  std::string line = "udp:listen:14550";
+  std::string signing_key;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    bridge.visit(v);
+    v.field("line", line, "",
+            "to the autopilot: serial:DEVICE:BAUD, udp:IP:PORT, udp:listen:PORT or tcp:IP:PORT");
+    v.field(
+        "signing_key", signing_key, "",
+        "file of 64 hexadecimal digits, the autopilot's key (SETUP_SIGNING); empty: not signed");
+  }
+};
+
+/// The configuration of all processes, and the bridge's.
+struct MavlinkProcessConfig {
+  ProcessConfig process;
+  MavlinkConfig mavlink;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    process.visit(v);
+    v.group("mavlink", mavlink, "the bridge to the autopilot, saker-mavlink");
+  }
+};
+
+/// The bridge on the bus and on its line: hears `_ODOMETRY`, `_SETPOINT` and `_COMMAND`, says
+/// `_STATE` (50 Hz, while the autopilot speaks), `_COMMAND_ACK` and `_HEALTH` (1 Hz).
+///
+/// One thread: handlers pass on what they hear at once, `step` does what is due.
+class MavlinkProcess {
+ public:
+  using Steady = std::chrono::steady_clock;
+
+  /// Subscribes to `bus`, which has to outlive this. Throws Error on an invalid value.
+  MavlinkProcess(const MavlinkConfig& config, Bus& bus);
+
+  /// Reads the line, does and says what is due.
+  void step();
+
+  [[nodiscard]] const Bridge& bridge() const { return bridge_; }
+
+ private:
+  void subscribe();
+  void read_line();
+  void write_line();
+  void say_state(Time now);
+  void say_health(Time now);
+  void log_changes();
+
+  MavlinkConfig config_;
+  Bus& bus_;
+  Bridge bridge_;
+  Line line_;
+  Time next_state_ = 0, next_health_ = 0;
+  Time last_bytes_ = 0;  // when the line was not silent
+  bool settled_ = true;
+  LoopMeter line_meter_{"line"}, odometry_meter_{"odometry"};
+  long not_sent_ = 0;
+  std::string logged_;  // what was logged last
+};
+
+}  // namespace saker::flight::mavlink

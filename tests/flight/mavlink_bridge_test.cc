@@ -1,0 +1,271 @@
+#include <gtest/gtest.h>
+
+#include "flight/mavlink/bridge.h"
+#include "mavlink_autopilot.h"
+
+namespace saker::flight::mavlink {
+namespace {
+
+using Target = SetPositionTargetLocalNed;
+
+class MavlinkFlight : public ::testing::TestWithParam<Autopilot> {
+ protected:
+  Flown flown_{GetParam()};
+};
+
+TEST_P(MavlinkFlight, ArmsTakesOffAndFollowsSetpointsAndLands) {
+  flown_.take_off();
+  ASSERT_TRUE(flown_.in_air());
+  EXPECT_FALSE(flown_.takeoff_cancelled);
+  ASSERT_EQ(flown_.answers.size(), 2u);
+  for (const auto& answer : flown_.answers) EXPECT_TRUE(answer.accepted) << answer.reason;
+  EXPECT_EQ(flown_.bridge().vehicle_state(flown_.now())->mode, VehicleMode::hold);
+  flown_.setpoints_run = true;
+  flown_.run(1000 * kMs);
+  const int before = flown_.sent<Target>();
+  flown_.run(1000 * kMs);
+  EXPECT_EQ(flown_.sent<Target>() - before, 50);
+  EXPECT_FLOAT_EQ(flown_.last<Target>().vx, 0.5);
+  EXPECT_EQ(flown_.bridge().vehicle_state(flown_.now())->mode, VehicleMode::guided);
+  flown_.order(CommandKind::land);
+  flown_.run(4000 * kMs);
+  EXPECT_FALSE(flown_.armed);
+  EXPECT_TRUE(flown_.answers.back().accepted);
+  EXPECT_EQ(flown_.bridge().vehicle_state(flown_.now())->mode, VehicleMode::idle);
+  EXPECT_EQ(flown_.bridge().counters().not_finite, 0);
+}
+
+TEST_P(MavlinkFlight, NoSetpointGoesOutBeforeTheTakeOffIsOrdered) {
+  flown_.setpoints_run = true;
+  flown_.run(3000 * kMs);
+  flown_.order(CommandKind::arm);
+  flown_.run(1000 * kMs);
+  EXPECT_TRUE(flown_.armed);
+  EXPECT_EQ(flown_.sent<Target>(), 0);
+}
+
+TEST_P(MavlinkFlight, WhenSetpointsStopTheVehicleIsStoppedWithinATick) {
+  flown_.take_off();
+  flown_.setpoints_run = true;
+  flown_.run(3000 * kMs);
+  flown_.setpoints_run = false;
+  flown_.run(220 * kMs);
+  EXPECT_FLOAT_EQ(flown_.last<Target>().vx, 0);
+  EXPECT_EQ(flown_.last<Target>().type_mask & 0x3F, 0);
+  const auto state = flown_.bridge().vehicle_state(flown_.now());
+  EXPECT_EQ(state->mode, VehicleMode::hold);
+  EXPECT_TRUE(state->faults & kSetpointExpired);
+}
+
+TEST_P(MavlinkFlight, WithoutOdometryItIsToldToLandWithinThreeTenths) {
+  flown_.take_off();
+  flown_.setpoints_run = true;
+  flown_.run(3000 * kMs);
+  const std::size_t before = flown_.commands.size();
+  flown_.odometry_runs = false;
+  const Time stopped = flown_.now();
+  flown_.run(300 * kMs);
+  ASSERT_GT(flown_.commands.size(), before);
+  EXPECT_EQ(flown_.commands.back().second, kDoSetMode);
+  EXPECT_LE(flown_.commands.back().first - stopped, 300 * kMs);
+  EXPECT_EQ(flown_.custom_mode, dialect_of(GetParam()).land.custom);
+  EXPECT_EQ(flown_.bridge().cause(), "odometry is lost");
+  const int targets = flown_.sent<Target>();
+  flown_.run(4000 * kMs);
+  EXPECT_EQ(flown_.sent<Target>(), targets);
+  EXPECT_FALSE(flown_.armed);
+}
+
+TEST_P(MavlinkFlight, ALandOrderThatIsNotAnsweredIsSentUntilItIs) {
+  flown_.take_off();
+  flown_.silent = true;
+  flown_.odometry_runs = false;
+  flown_.run(10'000 * kMs);
+  const auto tries = std::count_if(flown_.commands.begin(), flown_.commands.end(), [&](auto& c) {
+    return c.second == kDoSetMode && c.first > flown_.now() - 9000 * kMs;
+  });
+  EXPECT_GE(tries, 15);
+  EXPECT_LE(tries, 25);
+  flown_.silent = false;
+  flown_.run(600 * kMs);
+  EXPECT_EQ(flown_.custom_mode, dialect_of(GetParam()).land.custom);
+}
+
+TEST_P(MavlinkFlight, APilotHasItAtOnceAndForGood) {
+  flown_.take_off();
+  flown_.setpoints_run = true;
+  flown_.run(3000 * kMs);
+  flown_.change_mode(5);
+  const int targets = flown_.sent<Target>();
+  const std::size_t commands = flown_.commands.size();
+  flown_.run(1000 * kMs);
+  flown_.change_mode(dialect_of(GetParam()).guided.custom);  // the switch goes back
+  flown_.run(1000 * kMs);
+  flown_.order(CommandKind::hold);
+  flown_.run(500 * kMs);
+  EXPECT_EQ(flown_.sent<Target>(), targets);
+  EXPECT_EQ(
+      std::count_if(flown_.commands.begin() + static_cast<long>(commands), flown_.commands.end(),
+                    [](auto& c) { return c.second != kSetMessageInterval; }),
+      0);
+  EXPECT_FALSE(flown_.answers.back().accepted);
+  EXPECT_EQ(flown_.answers.back().reason, "the pilot took over, mode 5");
+  flown_.bridge().operator_resumes();
+  flown_.run(1000 * kMs);
+  EXPECT_GT(flown_.sent<Target>(), targets);
+}
+
+TEST_P(MavlinkFlight, AResetOfOdometryMovesTheHeldPlaceWithItAtOnce) {
+  flown_.take_off();
+  flown_.run(1000 * kMs);
+  const float before = flown_.last<Target>().x;
+  flown_.odom_offset = 3;
+  flown_.reset_counter = 1;
+  flown_.run(10 * kMs);
+  EXPECT_NEAR(flown_.last<Target>().x, before + 3, 1e-3);
+  EXPECT_EQ(flown_.last<Odometry>().reset_counter, 1);
+  EXPECT_NEAR(flown_.last<Odometry>().x, before + 3, 1e-3);
+  flown_.run(1000 * kMs);
+  EXPECT_EQ(flown_.custom_mode, dialect_of(GetParam()).guided.custom);
+}
+
+TEST_P(MavlinkFlight, ArmingWaitsForSensorsThatSettle) {
+  flown_.refuse_arming = {"Arm: Accels inconsistent", "Arm: Gyros inconsistent"};
+  flown_.run(3000 * kMs);
+  flown_.order(CommandKind::arm);
+  flown_.run(3000 * kMs);
+  EXPECT_TRUE(flown_.answers.empty());
+  flown_.run(3000 * kMs);
+  ASSERT_EQ(flown_.answers.size(), 1u);
+  EXPECT_TRUE(flown_.answers[0].accepted);
+  flown_.order(CommandKind::disarm);
+  flown_.run(500 * kMs);
+  flown_.refuse_arming = {"PreArm: Battery 1 low voltage failsafe"};
+  flown_.order(CommandKind::arm);
+  flown_.run(1000 * kMs);
+  EXPECT_FALSE(flown_.answers.back().accepted);
+  EXPECT_EQ(flown_.answers.back().reason, "PreArm: Battery 1 low voltage failsafe");
+}
+
+TEST_P(MavlinkFlight, AnAutopilotThatIsSilentIsNoState) {
+  flown_.run(3000 * kMs);
+  EXPECT_TRUE(flown_.bridge().vehicle_state(flown_.now()));
+  flown_.speaks = false;
+  flown_.run(3000 * kMs);
+  EXPECT_FALSE(flown_.bridge().vehicle_state(flown_.now()));
+  flown_.order(CommandKind::arm);
+  flown_.run(10 * kMs);
+  EXPECT_EQ(flown_.answers.back().reason, "no autopilot is heard");
+  const int beats = flown_.sent<Heartbeat>();
+  flown_.run(5000 * kMs);
+  EXPECT_EQ(flown_.sent<Heartbeat>() - beats, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, MavlinkFlight,
+                         ::testing::Values(Autopilot::ardupilot, Autopilot::px4),
+                         [](const auto& kind) { return std::string(to_string(kind.param)); });
+
+TEST(MavlinkBridge, AnotherAutopilotIsRefusedByName) {
+  Flown flown(Autopilot::px4);
+  Bridge& bridge = flown.bridge();
+  Heartbeat message;
+  message.autopilot = 3;
+  FrameWriter writer(1, 1);
+  bridge.hear_bytes(writer.write(message)->span(), flown.now(), 0);
+  flown.speaks = false;
+  flown.order(CommandKind::arm);
+  flown.run(10 * kMs);
+  ASSERT_EQ(flown.answers.size(), 1u);
+  EXPECT_EQ(flown.answers[0].reason,
+            "mavlink.autopilot is px4, but system 1 is ardupilot (HEARTBEAT 3)");
+}
+
+/// An order is sent again until its answer comes: PX4 climbs once.
+TEST(MavlinkBridge, ATakeOffThatIsOrderedAgainIsAnsweredAgainAndNotFlownAgain) {
+  Flown flown(Autopilot::px4);
+  flown.take_off();
+  ASSERT_EQ(flown.answers.size(), 2u);
+  const double height = flown.height;
+  Command again;
+  again.id = flown.answers.back().id;
+  again.kind = CommandKind::takeoff;
+  again.height_m = 3;
+  flown.bridge().hear(again, flown.now());
+  flown.run(5000 * kMs);
+  ASSERT_EQ(flown.answers.size(), 3u);
+  EXPECT_TRUE(flown.answers.back().accepted);
+  EXPECT_NEAR(flown.height, height, 1e-3);
+}
+
+TEST(MavlinkBridge, AsksForTheMessagesThatItNeedsAndForAnOrigin) {
+  Flown flown(Autopilot::ardupilot);
+  flown.run(2500 * kMs);
+  EXPECT_EQ(flown.sent<CommandLong>(), 8);
+  EXPECT_EQ(flown.sent<SetGpsGlobalOrigin>(), 2);
+  EXPECT_EQ(flown.last<SetGpsGlobalOrigin>().latitude, 470000000);
+  FrameWriter writer(1, 1);
+  flown.bridge().hear_bytes(writer.write(GpsGlobalOrigin{})->span(), flown.now(), 0);
+  flown.run(5000 * kMs);
+  EXPECT_EQ(flown.sent<SetGpsGlobalOrigin>(), 2);
+}
+
+/// Two aircraft on one line, or two bridges on one machine.
+TEST(MavlinkBridge, AnswersToOthersAreNotOurs) {
+  Flown flown(Autopilot::ardupilot);
+  flown.run(3000 * kMs);
+  flown.silent = true;
+  flown.order(CommandKind::disarm);
+  flown.run(100 * kMs);
+  flight::mavlink::CommandAck ack;
+  ack.command = kArmDisarm;
+  ack.target_system = 254;
+  FrameWriter writer(1, 1), other(2, 1);
+  flown.bridge().hear_bytes(writer.write(ack)->span(), flown.now(), 0);
+  ack.target_system = 255;
+  flown.bridge().hear_bytes(other.write(ack)->span(), flown.now(), 0);
+  flown.run(100 * kMs);
+  EXPECT_TRUE(flown.answers.empty());
+  flown.bridge().hear_bytes(writer.write(ack)->span(), flown.now(), 0);
+  flown.run(100 * kMs);
+  EXPECT_EQ(flown.answers.size(), 1u);
+}
+
+TEST(MavlinkBridge, AHeadingThatIsResetMakesArdupilotLand) {
+  for (const Autopilot kind : {Autopilot::ardupilot, Autopilot::px4}) {
+    Flown flown(kind);
+    flown.take_off();
+    VehicleOdometry turned = *flown.bridge().odometry().newest();
+    turned.stamp += 10 * kMs;
+    turned.reset_counter = 1;
+    turned.T_odom_body.linear() =
+        Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    flown.odometry_runs = false;
+    flown.bridge().hear(turned, flown.now() + 5 * kMs);
+    flown.run(100 * kMs);
+    const bool landed = flown.custom_mode == dialect_of(kind).land.custom;
+    EXPECT_EQ(landed, kind == Autopilot::ardupilot);
+  }
+}
+
+/// Whatever bytes come: nothing throws, and nothing that moves goes out.
+TEST(MavlinkBridge, MutatedStreamsMoveNothing) {
+  Flown flown(Autopilot::ardupilot);
+  flown.run(1000 * kMs);
+  FrameWriter writer(1, 1);
+  unsigned random = 1;
+  const auto next = [&] { return random = random * 1664525u + 1013904223u, random >> 8; };
+  for (int i = 0; i < 20'000; ++i) {
+    Heartbeat message;
+    message.autopilot = 3;
+    message.custom_mode = 4;
+    FrameBytes frame = *writer.write(message);
+    for (unsigned k = next() % 4; k > 0; --k)
+      frame.bytes[next() % frame.length] = static_cast<std::uint8_t>(next());
+    flown.bridge().hear_bytes(frame.span(), flown.now(), 0);
+    if (i % 100 == 0) flown.run(10 * kMs);
+  }
+  EXPECT_EQ(flown.sent<Target>(), 0);
+}
+
+}  // namespace
+}  // namespace saker::flight::mavlink
