@@ -8,6 +8,7 @@
 #include "flight/mavlink/authority.h"
 #include "flight/mavlink/clocks.h"
 #include "flight/mavlink/commands.h"
+#include "flight/mavlink/config.h"
 #include "flight/mavlink/frame.h"
 #include "flight/mavlink/odometry_out.h"
 #include "flight/mavlink/setpoint_out.h"
@@ -21,35 +22,6 @@
 /// no bus: the process (mavlink_process.h) has those, and a test may have any others. Nothing
 /// throws after the constructor. Call `step` at least 100 times a second.
 namespace saker::flight::mavlink {
-
-struct BridgeConfig {
-  Autopilot autopilot = Autopilot::ardupilot;
-  int system = 255;          ///< ours
-  int component = 191;       ///< ours: an onboard computer
-  int autopilot_system = 0;  ///< 0: the first that is heard
-  double latitude_deg = 47.0, longitude_deg = 8.0, altitude_m = 400;
-  double battery_low = 0.2;
-  double most_reset_yaw =
-      0.05;  ///< rad; more, and ArduPilot would fly with a wrong heading: it lands
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v.field("autopilot", autopilot, "", "px4 or ardupilot; another one on the line is refused");
-    v.field("system", system, {1, 255}, "",
-            "our MAVLink system: the one that the autopilot's failsafe listens to (SYSID_MYGCS)");
-    v.field("component", component, {1, 255}, "", "our MAVLink component");
-    v.field("autopilot_system", autopilot_system, {0, 255}, "",
-            "the autopilot's MAVLink system; 0: the first that is heard");
-    v.field("latitude_deg", latitude_deg, {-90, 90}, "deg",
-            "of the place that the autopilot takes for its origin: it needs one, any will do");
-    v.field("longitude_deg", longitude_deg, {-180, 180}, "deg", "of that place");
-    v.field("altitude_m", altitude_m, {-500, 9000}, "m", "of that place");
-    v.field("battery_low", battery_low, {0, 1}, "",
-            "share of the emptiest pack below which the executive is told");
-    v.field("most_reset_yaw", most_reset_yaw, {0, 3.2}, "rad",
-            "of a reset of odometry; more, and an autopilot that does not follow it lands");
-  }
-};
 
 class Bridge {
  public:

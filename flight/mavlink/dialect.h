@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
+#include "flight/mavlink/config.h"
 #include "saker/core/time.h"
 
 /// Where PX4 and ArduPilot differ: numbers of modes, and what each does with setpoints.
@@ -11,13 +10,6 @@
 /// Sources: ArduPilot's copter modes and PX4's px4_custom_mode.h, both public; flown with
 /// ArduCopter 4.6, read in PX4's sources.
 namespace saker::flight::mavlink {
-
-enum class Autopilot { px4, ardupilot };
-
-[[nodiscard]] inline const char* to_string(Autopilot autopilot) {
-  return autopilot == Autopilot::px4 ? "px4" : "ardupilot";
-}
-[[nodiscard]] inline std::vector<std::string> enum_names(Autopilot) { return {"px4", "ardupilot"}; }
 
 /// A mode as DO_SET_MODE takes it, and as HEARTBEAT shows it.
 struct ModeNumber {

@@ -5,7 +5,6 @@
 #include "flight/mavlink/mavlink_process.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
-#include "saker/core/config_io.h"
 #include "saker/core/error.h"
 
 namespace saker::flight::mavlink {
@@ -33,9 +32,8 @@ void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
 }
 
 int run(const ProcessOptions& options) {
-  const auto config =
-      core::load_config<MavlinkProcessConfig>(options.config_file, options.settings);
-  Bus bus(config.process.bus, options.robot);
+  const ProcessConfig config = read_configuration(options.configuration);
+  Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-mavlink");
   presence.claim();
   MavlinkProcess bridge(config.mavlink, bus);

@@ -8,38 +8,9 @@
 #include "flight/bus/bus.h"
 #include "flight/mavlink/bridge.h"
 #include "flight/mavlink/line.h"
-#include "flight/process/configuration.h"
 #include "flight/process/loop_meter.h"
 
 namespace saker::flight::mavlink {
-
-struct MavlinkConfig {
-  BridgeConfig bridge;
-  std::string line = "udp:listen:14550";
-  std::string signing_key;
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    bridge.visit(v);
-    v.field("line", line, "",
-            "to the autopilot: serial:DEVICE:BAUD, udp:IP:PORT, udp:listen:PORT or tcp:IP:PORT");
-    v.field(
-        "signing_key", signing_key, "",
-        "file of 64 hexadecimal digits, the autopilot's key (SETUP_SIGNING); empty: not signed");
-  }
-};
-
-/// The configuration of all processes, and the bridge's.
-struct MavlinkProcessConfig {
-  ProcessConfig process;
-  MavlinkConfig mavlink;
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    process.visit(v);
-    v.group("mavlink", mavlink, "the bridge to the autopilot, saker-mavlink");
-  }
-};
 
 /// The bridge on the bus and on its line: hears `_ODOMETRY`, `_SETPOINT` and `_COMMAND`, says
 /// `_STATE` (50 Hz, while the autopilot speaks), `_COMMAND_ACK` and `_HEALTH` (1 Hz).

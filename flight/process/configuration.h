@@ -5,6 +5,7 @@
 #include "flight/base_station/config.h"
 #include "flight/bus/bus.h"
 #include "flight/command_line/configuration_source.h"
+#include "flight/mavlink/config.h"
 #include "saker/autonomy/config.h"
 #include "saker/autonomy/team_config.h"
 #include "saker/exchange/peer.h"
@@ -40,14 +41,15 @@ struct ExchangeConfig {
   }
 };
 
-/// The whole configuration file: the autonomy's, the networks, the team's, the base station's and
-/// that of the fit of uncertainty models.
+/// The whole configuration file: the autonomy's, the networks, the team's, the base station's, the
+/// bridge's to an autopilot and that of the fit of uncertainty models.
 struct ProcessConfig {
   autonomy::Config autonomy;
   BusConfig bus;
   ExchangeConfig exchange;
   autonomy::TeamConfig team;
   BaseConfig base;
+  mavlink::MavlinkConfig mavlink;
   uncertainty::FitConfig fit;
 
   template <class Visitor>
@@ -57,6 +59,7 @@ struct ProcessConfig {
     v.group("exchange", exchange, "what robots and base station tell each other");
     v.group("team", team, "what a robot makes of what others mapped");
     v.group("base", base, "the base station, saker-base");
+    v.group("mavlink", mavlink, "the bridge to the autopilot, saker-mavlink");
     v.group("fit", fit, "of uncertainty models to samples, saker characterise fit");
   }
 };

@@ -18,7 +18,7 @@
 ///
 /// Frames: everything is given in the lidar frame of the window's last scan. Inside, clouds lie in
 /// a levelled frame (odometry's z is up, roughly), and each object in the frame of its local
-/// ground. Method: paper, III-A; ground and cylinders after Chen et al., "SLOAM", RA-L 2020;
+/// ground. Method: paper, IV-A; ground and cylinders after Chen et al., "SLOAM", RA-L 2020;
 /// clusters by DBSCAN (Ester et al., KDD 1996). Objects without ground near them are refused. Cost:
 /// linear in labelled points, about 50 ms for ten scans of 120,000 on one thread.
 namespace saker::detection {

@@ -22,7 +22,7 @@ struct HullConfig {
   }
 };
 
-/// The paper's (III-A): the first principal component of the convex hull's vertices is the length's
+/// The paper's (IV-A): the first principal component of the convex hull's vertices is the length's
 /// direction, percentiles over these vertices are the edges, whatever of the vehicle was seen.
 class HullFitter final : public VehicleFitter {
  public:

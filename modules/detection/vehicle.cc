@@ -57,7 +57,7 @@ double top_of(const std::vector<BodyPoint>& points, double percentile) {
   return core::percentile(heights, percentile / 100);
 }
 
-/// Log-odds that the lower axis end … the end at +x is the front: the lower one (paper, III-A).
+/// Log-odds that the lower axis end … the end at +x is the front: the lower one (paper, IV-A).
 double front_log_odds(const std::vector<BodyPoint>& points, const Motion& motion, const Plan& plan,
                       const VehicleConfig& config) {
   const Eigen::Vector2d x(std::cos(plan.heading), std::sin(plan.heading));

@@ -18,7 +18,7 @@
 /// Reads points in the local ground's frame (z = 0 the ground), with the scan each came from, and
 /// what their beams went through. Motion first, then the plan by a fitter (vehicle_fitter.h); the
 /// top is a percentile of the heights. A cluster whose middle beams went through is more than one
-/// vehicle. The lower end is the front (paper, III-A).
+/// vehicle. The lower end is the front (paper, IV-A).
 namespace saker::detection {
 
 enum class VehicleFitting { faces, hull };

@@ -16,8 +16,9 @@ struct MountConfig {
   void visit(Visitor& v) {
     v.setting("position_m", position_m, {-5, 5}, "m",
               "Place of the lidar's origin in body: x forward, y left, z up.");
-    v.setting("rotation_deg", rotation_deg, {-180, 180}, "°",
-              "Roll, pitch and yaw of the lidar in body, applied about z, then y, then x.");
+    v.setting(
+        "rotation_deg", rotation_deg, {-180, 180}, "°",
+        "Roll, pitch (positive: nose down) and yaw of the lidar in body: about z, then y, then x.");
   }
 };
 

@@ -21,7 +21,7 @@ struct ClearanceConfig {
   void visit(Visitor& v) {
     v.setting("robot_radius_m", robot_radius_m, {0.05, 2}, "m",
               "A ball of this radius around the body's centre holds frame and propellers.");
-    v.setting("margin_m", margin_m, {0, 2}, "m",
+    v.setting("margin_m", margin_m, {0, 10}, "m",
               "The ball keeps this far from what is occupied or unknown.");
     v.field("planning_slack_m", planning_slack_m, {0, 1}, "m",
             "more than that when a path is planned, so that noise in the map does not stop it");
@@ -33,6 +33,7 @@ struct ClearanceConfig {
             "around the vehicle the unknown is free: it is there, and sees nothing so near");
   }
 
+  /// m, from the body's centre, kept by planner and collision checker.
   [[nodiscard]] double least_m() const { return robot_radius_m + margin_m; }
 
   /// m, kept on the way out from a cell whose surface is `now_m` from the body's centre already:

@@ -70,7 +70,7 @@ struct InsertReport {
 ///
 /// Frame: `odom`. Method: Hornung et al., "OctoMap" (Autonomous Robots 2013), sec. 3, with the same
 /// tree as octomap::OcTree::insertPointCloud(cloud, origin, range) makes of the same points, not
-/// discretised, not lazy; ScanBox and MapTree say how. Cost: README.md. One thread; allocates
+/// discretised, not lazy; ScanBox and MapTree say how. Cost: its README. One thread; allocates
 /// nothing after warm-up but the octree's nodes.
 class OccupancyMap {
  public:

@@ -111,7 +111,7 @@ struct OdometryEstimate {
 /// once more with the motion found, add the scan to the map. Sources: gate and two thinnings, Vizzo
 /// et al., "KISS-ICP" (RA-L 2023), sec. III; planes of voxels, Yuan et al., "VoxelMap" (RA-L 2022),
 /// sec. III; deskewing by the motion between two scans, Dellenbach et al., "CT-ICP" (ICRA 2022).
-/// Cost: README.md. One thread; after the first scans only the estimate's points are allocated.
+/// Cost: its README. One thread; after the first scans only the estimate's points are allocated.
 class Odometry {
  public:
   explicit Odometry(const OdometryConfig& config);  ///< throws Error on an invalid value

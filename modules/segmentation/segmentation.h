@@ -31,8 +31,8 @@ struct SegmentationConfig {
 /// geometry per pixel (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut
 /// down, as the paper's sec. IV-A does (network.h; trained by tools/training on simulated scans
 /// only), back to the points (back_projection.h). A scan without finite points is all `other` with
-/// probability 0. Cost: README.md. One thread, one instance a thread; the same scan gives the same
-/// bytes.
+/// probability 0. Cost: docs/real.md. One thread, one instance a thread; the same scan gives the
+/// same bytes.
 class Segmentation {
  public:
   /// Throws Error: a missing or wrong model, or a description that does not fit the class table.

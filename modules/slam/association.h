@@ -4,7 +4,7 @@
 
 #include "saker/slam/landmark.h"
 
-/// Nearest-neighbour association with fixed thresholds (the paper, section III-B.2).
+/// Nearest-neighbour association with fixed thresholds (the paper, section IV-B.2).
 namespace saker::slam {
 
 struct AssociationConfig {

@@ -100,7 +100,7 @@ struct SlamUpdate {
 /// what is measured between two attaches to the newest one by odometry's motion, whose covariance
 /// is added.
 ///
-/// Method: the paper, section III-B. Nearest-neighbour association; odometry factor, cuboid factor
+/// Method: the paper, section IV-B. Nearest-neighbour association; odometry factor, cuboid factor
 /// (eq. 1), cylinder factor (eq. 2) in one graph, minimised by Levenberg–Marquardt from the last
 /// estimate. Added to the paper: the class is fused by Bayes' rule, front and back outside the
 /// graph, an object enters the map after several observations and leaves it when it moves or is not

@@ -36,6 +36,7 @@ WHO = {
     "team": "ground",
     "base": "ground",
     "base.most_store_mb": "buyer",
+    "mavlink": "mounter",
 }
 
 
