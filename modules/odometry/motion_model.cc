@@ -1,5 +1,6 @@
 #include "saker/odometry/motion_model.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
@@ -31,6 +32,21 @@ double mean_sd(const Matrix6d& covariance) {
   return std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3);
 }
 
+double speed_sd(const InertialFilter& inertial) {
+  return std::sqrt(inertial.covariance().block<3, 3>(6, 6).trace() / 3);
+}
+
+/// What the way from a pose of this covariance added to that of the prior, where both errors go on
+/// from one scan to the next: sums over scans hold.
+Matrix6d growth(const Matrix6d& before, const PosePrior& prior) {
+  const Matrix6d sum = prior.covariance - before;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(0.5 * (sum + sum.transpose()));
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+constexpr double kLonger = 1.5;  // usual intervals: more than jitter
+
 }  // namespace
 
 MotionModel::MotionModel(const MotionConfig& config)
@@ -40,7 +56,7 @@ MotionModel::MotionModel(const MotionConfig& config)
 
 void MotionModel::start(Time moment, const SE3& T_odom_lidar) {
   moment_ = registered_moment_ = moment;
-  T_odom_lidar_ = T_odom_lidar;
+  T_odom_lidar_ = T_odom_registered_ = T_odom_lidar;
   inertial_.start(moment, T_odom_lidar, Matrix6d::Zero(), Eigen::Vector3d::Zero(),
                   config_.initial_speed_mps);
 }
@@ -50,39 +66,66 @@ bool MotionModel::covered(std::span<const lidar::ImuSample> imu, Time begin, Tim
 }
 
 Prediction MotionModel::predict(Time moment, std::span<const lidar::ImuSample> imu) const {
+  const double seconds = to_seconds(moment - registered_moment_);
+  if (!covered(imu, moment_, moment)) return by_twist(moment, seconds);
   Prediction prediction;
   prediction.moment = moment;
-  prediction.seconds = std::min(to_seconds(moment - moment_), config_.max_interval_s);
-  if (covered(imu, moment_, moment)) {
-    InertialFilter ahead = inertial_, from_here = inertial_;
-    ahead.propagate(imu, moment);
-    from_here.fix_pose();
-    from_here.propagate(imu, moment);
-    prediction.prior = {ahead.T_odom_lidar(), ahead.pose_covariance()};
-    prediction.motion_covariance = from_here.pose_covariance();
-    prediction.inertial = ahead;
-    return prediction;
-  }
-  prediction.prior.T_odom_lidar = T_odom_lidar_ * core::se3_exp(twist_ * prediction.seconds);
-  prediction.prior.covariance = prediction.motion_covariance =
-      twist_motion_covariance(prediction.seconds);
+  prediction.seconds = seconds;
+  InertialFilter ahead = inertial_, from_here = inertial_;
+  ahead.propagate(imu, moment);
+  from_here.fix_pose();
+  from_here.propagate(imu, moment);
+  prediction.prior = {ahead.T_odom_lidar(), ahead.pose_covariance()};
+  prediction.motion_covariance = moment_ == registered_moment_
+                                     ? from_here.pose_covariance()
+                                     : growth(inertial_.pose_covariance(), prediction.prior);
+  prediction.inertial = ahead;
   return prediction;
 }
 
+Prediction MotionModel::predict_without_imu(Time moment) const {
+  return by_twist(moment, to_seconds(moment - registered_moment_));
+}
+
+std::optional<Prediction> MotionModel::predict_stepped(
+    Time moment, std::span<const lidar::ImuSample> imu) const {
+  const bool longer = to_seconds(moment - registered_moment_) > kLonger * usual_interval_s_;
+  if (!longer || covered(imu, registered_moment_, moment)) return std::nullopt;
+  return by_twist(moment, usual_interval_s_);
+}
+
+Prediction MotionModel::by_twist(Time moment, double seconds) const {
+  Prediction prediction;
+  prediction.moment = moment;
+  prediction.seconds = seconds;
+  const double moves = std::min(seconds, std::max(config_.max_coast_s, usual_interval_s_));
+  prediction.prior.T_odom_lidar = T_odom_registered_ * core::se3_exp(twist_ * moves);
+  prediction.prior.covariance = prediction.motion_covariance = twist_motion_covariance(seconds);
+  const double before = to_seconds(moment_ - registered_moment_);
+  if (before > 0)
+    prediction.motion_covariance = growth(twist_motion_covariance(before), prediction.prior);
+  return prediction;
+}
+
+/// Up to where nothing but the speed of a multirotor bounds it.
 Matrix6d MotionModel::twist_motion_covariance(double seconds) const {
-  // The twist is the mean of the last interval and is used for the next one: their middles are an
-  // interval apart.
+  // The twist is the mean of the last interval and is used for the next one.
   const double square = seconds * seconds;
-  return twist_covariance_ * square +
-         diagonal(config_.angular_acceleration_rps2 * square, config_.acceleration_mps2 * square);
+  const double change = 0.5 * seconds * (seconds + std::max(seconds, moved_over_s_));
+  const Matrix6d any =
+      diagonal(config_.initial_rate_rps * seconds, config_.initial_speed_mps * seconds);
+  const Matrix6d twist =
+      twist_covariance_ * square +
+      diagonal(config_.angular_acceleration_rps2 * change, config_.acceleration_mps2 * change);
+  return twist.trace() < any.trace() || moved_over_s_ == 0 ? twist : any;
 }
 
 Vector6d MotionModel::twist_to(const SE3& T_odom_lidar, double seconds) const {
-  return core::se3_log(T_odom_lidar_.inverse() * T_odom_lidar) / seconds;
+  return core::se3_log(T_odom_registered_.inverse() * T_odom_lidar) / seconds;
 }
 
 Eigen::Vector3d MotionModel::velocity_to(const SE3& T_odom_lidar, double seconds) const {
-  return (T_odom_lidar.translation() - T_odom_lidar_.translation()) / seconds;
+  return (T_odom_lidar.translation() - T_odom_registered_.translation()) / seconds;
 }
 
 Sweep MotionModel::sweep(const Prediction& prediction, const SE3& T_odom_lidar, Time span,
@@ -124,10 +167,11 @@ void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
   twist_covariance_ = covariance / (seconds * seconds);
   const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, seconds);
   moved_over_s_ = seconds;
-  usual_interval_s_ += 0.1 * (seconds - usual_interval_s_);
+  if (moment_ == registered_moment_) usual_interval_s_ += 0.1 * (seconds - usual_interval_s_);
   T_odom_lidar_ = T_odom_lidar;
   T_odom_lidar_.linear() =
       Eigen::Quaterniond(T_odom_lidar.linear()).normalized().toRotationMatrix();
+  T_odom_registered_ = T_odom_lidar_;
   moment_ = registered_moment_ = prediction.moment;
   if (prediction.inertial) {
     inertial_ = *prediction.inertial;
@@ -139,24 +183,14 @@ void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
 }
 
 void MotionModel::coast(const Prediction& prediction) {
-  const SE3& T_odom_lidar = prediction.prior.T_odom_lidar;
-  const Matrix6d& covariance = prediction.prior.covariance;
-  const Eigen::Vector3d velocity = velocity_to(T_odom_lidar, prediction.seconds);
-  T_odom_lidar_ = T_odom_lidar;
+  T_odom_lidar_ = prediction.prior.T_odom_lidar;
   moment_ = prediction.moment;
-  twist_covariance_ = prediction.motion_covariance / (prediction.seconds * prediction.seconds);
-  if (prediction.inertial) {
+  if (prediction.inertial && speed_sd(*prediction.inertial) < config_.initial_speed_mps) {
     inertial_ = *prediction.inertial;
-  } else {
-    inertial_.start(moment_, T_odom_lidar, covariance, velocity,
-                    mean_sd(covariance) / prediction.seconds);
+    return;
   }
-  if (to_seconds(moment_ - registered_moment_) <= config_.max_coast_s) return;
-  twist_.setZero();
-  moved_over_s_ = 0;
-  twist_covariance_ = diagonal(config_.initial_rate_rps, config_.initial_speed_mps);
-  inertial_.start(moment_, T_odom_lidar, covariance, Eigen::Vector3d::Zero(),
-                  config_.initial_speed_mps);
+  inertial_.start(moment_, T_odom_lidar_, prediction.prior.covariance,
+                  velocity_to(T_odom_lidar_, prediction.seconds), config_.initial_speed_mps);
 }
 
 }  // namespace saker::odometry

@@ -18,7 +18,6 @@ struct MotionConfig {
   double acceleration_mps2 = 5;
   double angular_acceleration_rps2 = 5;
   double max_coast_s = 1;
-  double max_interval_s = 2;
   InertialConfig inertial;
 
   template <class Visitor>
@@ -32,27 +31,27 @@ struct MotionConfig {
     v.field("angular_acceleration_rps2", angular_acceleration_rps2, {0.01, 500}, "rad/s²",
             "the same of the turn");
     v.field("max_coast_s", max_coast_s, {0, 60}, "s",
-            "after so long without a registration it is taken to stand still");
-    v.field("max_interval_s", max_interval_s, {0.05, 60}, "s",
-            "a longer gap between scans is predicted as if it were this long");
+            "so long the last twist is taken to go on where no IMU measures the motion");
     v.group("inertial", inertial, "the inertial unit");
   }
 };
 
-/// Where the lidar is expected at a moment.
+/// Where the lidar is expected at a moment. Covariances: tangent [rotation, translation], right.
 struct Prediction {
   Time moment = 0;
-  double seconds = 0;  ///< since the last scan's moment
+  double seconds = 0;  ///< since the moment of the last registered scan
   PosePrior prior;
-  Matrix6d motion_covariance = Matrix6d::Constant(NAN);  ///< of the motion since then alone
-  std::optional<InertialFilter> inertial;                ///< there, when the IMU covers the motion
+  /// What the motion since the last scan, registered or not, adds.
+  Matrix6d motion_covariance = Matrix6d::Constant(NAN);
+  std::optional<InertialFilter> inertial;  ///< there, when the IMU covers the motion
 };
 
 /// The lidar's motion from scan to scan, at a moment in each: by the inertial unit, its velocity
 /// and biases learnt from the poses that registration found, or where there is none by a constant
 /// twist, that within a scan changes as fast as it did over the last two intervals. The covariance
-/// grows with time, with every scan that could not be registered, and in directions that
-/// registration leaves open: there the inertial unit decides.
+/// grows with time since the last registration, and in directions that registration leaves open:
+/// there the inertial unit decides. Scans that are not registered are bridged by the inertial unit
+/// until it knows less than that a multirotor does not fly faster than `initial_speed_mps`.
 class MotionModel {
  public:
   explicit MotionModel(const MotionConfig& config);
@@ -60,6 +59,14 @@ class MotionModel {
   void start(Time moment, const SE3& T_odom_lidar);
 
   [[nodiscard]] Prediction predict(Time moment, std::span<const lidar::ImuSample> imu) const;
+
+  /// The same without the inertial unit, for one that contradicts what the scans show.
+  [[nodiscard]] Prediction predict_without_imu(Time moment) const;
+
+  /// The same had no more than the usual interval passed since the last registered scan: where
+  /// stamps say that it was longer and no inertial sample proves it, the clock may have stepped.
+  [[nodiscard]] std::optional<Prediction> predict_stepped(
+      Time moment, std::span<const lidar::ImuSample> imu) const;
 
   /// The motion during a scan of length `span` in whose middle, the prediction's moment, the lidar
   /// is at `T_odom_lidar`.
@@ -79,6 +86,7 @@ class MotionModel {
   [[nodiscard]] const InertialFilter& inertial() const { return inertial_; }
 
  private:
+  [[nodiscard]] Prediction by_twist(Time moment, double seconds) const;
   [[nodiscard]] Matrix6d twist_motion_covariance(double seconds) const;
   [[nodiscard]] bool covered(std::span<const lidar::ImuSample> imu, Time begin, Time end) const;
   [[nodiscard]] Vector6d twist_to(const SE3& T_odom_lidar, double seconds) const;
@@ -86,10 +94,11 @@ class MotionModel {
 
   MotionConfig config_;
   InertialFilter inertial_;  // at moment_
-  Time moment_ = 0;
-  Time registered_moment_ = 0;
-  double usual_interval_s_ = 0.1;
+  Time moment_ = 0;          // of the last scan
   SE3 T_odom_lidar_ = SE3::Identity();
+  Time registered_moment_ = 0;  // of the last one that was registered
+  SE3 T_odom_registered_ = SE3::Identity();
+  double usual_interval_s_ = 0.1;
   double moved_over_s_ = 0;            // over which the twist was measured; 0: it was not
   Vector6d twist_ = Vector6d::Zero();  // a second, in the lidar frame
   Matrix6d twist_covariance_;

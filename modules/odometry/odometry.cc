@@ -1,5 +1,10 @@
 #include "saker/odometry/odometry.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace saker::odometry {
 namespace {
 
@@ -27,6 +32,20 @@ Matrix6d drift(const Matrix6d& posterior, const Prediction& prediction, double s
   const Matrix6d of_motion = of_prior * prediction.motion_covariance * of_prior.transpose();
   const Matrix6d sum = share * posterior + (1 - share) * of_motion;
   return 0.5 * (sum + sum.transpose());
+}
+
+double share_of(const RegistrationResult& result, std::size_t points) {
+  return static_cast<double>(result.inliers) /
+         static_cast<double>(std::max<std::size_t>(points, 1));
+}
+
+constexpr double kClearlyMore = 1.05;  // of inliers: noise makes less of a difference
+
+/// Twice the negative log density of the pose under its prediction.
+double surprise(const SE3& T_odom_lidar, const PosePrior& prior) {
+  const Vector6d off = core::se3_log(prior.T_odom_lidar.inverse() * T_odom_lidar);
+  const Eigen::LDLT<Matrix6d> factors(prior.covariance);
+  return off.dot(factors.solve(off)) + factors.vectorD().array().abs().log().sum();
 }
 
 }  // namespace
@@ -61,6 +80,7 @@ Odometry::Odometry(const OdometryConfig& config)
     : config_(core::checked(config, "odometry")),
       map_(config_.map),
       registration_(config_.registration),
+      search_(config_.search),
       gate_(config_.gate),
       motion_(config_.motion),
       filter_(kMostSampledPoints) {}
@@ -69,13 +89,12 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
                                          std::span<const lidar::ImuSample> imu) {
   if (started_ && (scan.stamp <= stamp_ || moment_of(scan) <= motion_.moment()))
     return refused(scan);
-  imu_.add(imu, scan.stamp - kImuMemory);
+  imu_.add(imu, std::min(scan.stamp - kImuMemory, motion_.moment() - kImuMemory));
   thin(scan);
   if (!started_) return start(scan);
   if (!first_.points.empty()) refine_first(scan);
 
-  const Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
-  const Fit found = fit(scan, prediction);
+  auto [prediction, found] = most_likely(scan);
   OdometryEstimate estimate = report(scan, prediction, found);
   remember(prediction, found);
   stamp_ = estimate.stamp;
@@ -83,6 +102,33 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
     add_to_map(scan, found.sweep);
   return estimate;
+}
+
+/// The prediction, unless another one explains the scan where it does not.
+std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& scan) {
+  const Time moment = moment_of(scan);
+  Prediction prediction = motion_.predict(moment, imu_.samples());
+  Fit found = fit(scan, prediction);
+  std::optional<Prediction> other = motion_.predict_stepped(moment, imu_.samples());
+  // A single scan may be of another place; several say that the inertial unit is wrong.
+  if (!other && prediction.inertial && found.reason == OdometryReason::no_fit && misfits_ > 0)
+    other = motion_.predict_without_imu(moment);
+  if (!other) return {prediction, std::move(found)};
+  Fit found_otherwise = fit(scan, *other);
+  if (!more_likely(found_otherwise, *other, found, prediction))
+    return {prediction, std::move(found)};
+  return {*other, std::move(found_otherwise)};
+}
+
+/// Which of two predictions explains the scan: points first, then the motion.
+bool Odometry::more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
+                           const Prediction& of_b) {
+  const bool a_fits = a.reason == OdometryReason::none, b_fits = b.reason == OdometryReason::none;
+  if (a_fits != b_fits) return a_fits;
+  if (a.share > kClearlyMore * b.share) return true;
+  if (b.share > kClearlyMore * a.share) return false;
+  return surprise(a.registration.T_odom_lidar, of_a.prior) <
+         surprise(b.registration.T_odom_lidar, of_b.prior);
 }
 
 OdometryEstimate Odometry::start(const lidar::Scan& scan) {
@@ -134,12 +180,42 @@ void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
     scratch_.push_back(sweep.deskewed(scan.points[i], offset_of(scan, i)).cast<double>());
 }
 
+OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t points,
+                               bool searched) const {
+  if (!registration_.enough(points)) return OdometryReason::too_few_points;
+  const bool expected = !searched && result.deviation_sd <= config_.expected_sd;
+  const double least = expected ? config_.least_usual_share : config_.least_unexpected_share;
+  const bool usual = share_of(result, points) >= least * usual_share_;
+  return usual && registration_.trustworthy(result, points) ? OdometryReason::none
+                                                            : OdometryReason::no_fit;
+}
+
+SE3 Odometry::start_of(const lidar::Scan& scan, const Prediction& prediction, double gate_m) {
+  const SE3& predicted = prediction.prior.T_odom_lidar;
+  if (!search_.worthwhile(prediction.prior)) return predicted;
+  deskew(scan, motion_.sweep(prediction, predicted, Sweep::span_of(scan), imu_.samples()),
+         coarse_sample_);
+  RegistrationResult best =
+      registration_.align(scratch_, prediction.prior, predicted, map_, gate_m);
+  SE3 start = predicted;
+  for (const SE3& from : search_.starts(scratch_, prediction.prior, map_)) {
+    const RegistrationResult other =
+        registration_.align(scratch_, prediction.prior, from, map_, gate_m);
+    if (other.inliers < kClearlyMore * best.inliers) continue;
+    best = other;
+    start = other.T_odom_lidar;
+  }
+  return start;
+}
+
 Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction) {
   const Time span = Sweep::span_of(scan);
   const SE3& predicted = prediction.prior.T_odom_lidar;
   Fit fit;
   fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
-  fit.registration.T_odom_lidar = predicted;
+  const SE3 start = start_of(scan, prediction, fit.gate_m);
+  const bool searched = !start.isApprox(predicted);
+  fit.registration.T_odom_lidar = start;
   const int rounds = span == 0 ? 1 : config_.deskew_rounds;
   for (int round = 0; round < rounds && fit.reason == OdometryReason::none; ++round) {
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
@@ -147,11 +223,9 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
     deskew(scan, fit.sweep, round + 1 < rounds ? coarse_sample_ : registration_sample_);
     fit.registration =
         registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
-    if (!registration_.enough(scratch_.size()))
-      fit.reason = OdometryReason::too_few_points;
-    else if (!registration_.trustworthy(fit.registration, scratch_.size()))
-      fit.reason = OdometryReason::no_fit;
+    fit.reason = judge(fit.registration, scratch_.size(), searched);
   }
+  fit.share = share_of(fit.registration, scratch_.size());
   const bool fits = fit.reason == OdometryReason::none;
   if (!fits) fit.registration.T_odom_lidar = predicted;
   if (!fits) fit.registration.covariance = prediction.prior.covariance;
@@ -184,6 +258,8 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   if (fit.reason == OdometryReason::none) {
     gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
     motion_.accept(prediction, fit.registration.T_odom_lidar, fit.registration.covariance);
+    const double keep = usual_share_ > 0 ? config_.share_memory : 0;
+    usual_share_ = keep * usual_share_ + (1 - keep) * fit.share;
     misfits_ = 0;
     return;
   }
@@ -192,6 +268,7 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
   gate_.reset();
+  usual_share_ = 0;
 }
 
 void Odometry::keep_first(const lidar::Scan& scan) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "saker/core/config.h"
@@ -9,6 +10,7 @@
 #include "saker/odometry/adaptive_gate.h"
 #include "saker/odometry/imu_buffer.h"
 #include "saker/odometry/motion_model.h"
+#include "saker/odometry/pose_search.h"
 #include "saker/odometry/registration.h"
 #include "saker/odometry/sweep.h"
 #include "saker/odometry/voxel_filter.h"
@@ -27,8 +29,13 @@ struct OdometryConfig {
   double prune_every_s = 1;
   int restart_after = 5;
   double drift_share = 0.25;
+  double least_usual_share = 0.5;
+  double least_unexpected_share = 0.8;
+  double expected_sd = 3;
+  double share_memory = 0.9;
   VoxelMapConfig map;
   RegistrationConfig registration;
+  PoseSearchConfig search;
   AdaptiveGateConfig gate;
   MotionConfig motion;
 
@@ -59,8 +66,18 @@ struct OdometryConfig {
         "of a registration's variance that stays as drift: a scan's noise goes with the next "
         "scan, but for its share in the map; on flights the error of 1 s is that of 0.1 to 0.4, of "
         "10 s that of 0.03 to 0.2, most over bare ground");
+    v.field("least_usual_share", least_usual_share, {0, 1}, "",
+            "of the share of points that usually lies on planes of the map; less, and the scan is "
+            "not registered: from a wrong place some fit, too");
+    v.field("least_unexpected_share", least_unexpected_share, {0, 1}, "",
+            "the same where the pose is not one that the prediction pointed to");
+    v.field("expected_sd", expected_sd, {1, 100}, "",
+            "from the prediction, a dimension: farther, and the pose is not expected");
+    v.field("share_memory", share_memory, {0, 0.999}, "",
+            "of the old usual share that a scan keeps");
     v.group("map", map, "the local map");
     v.group("registration", registration, "scan to map");
+    v.group("search", search, "where registration starts when the prediction is not sure enough");
     v.group("gate", gate, "how far a point may be from the map");
     v.group("motion", motion, "prediction");
   }
@@ -108,7 +125,9 @@ struct OdometryEstimate {
 /// force where there is an IMU (yaw 0). Covariances: tangent [rotation, translation], right.
 /// Method: predict (by the IMU, else a constant twist), deskew by that motion, point-to-plane ICP
 /// to a voxel map of Gaussians with robust weights and the prediction as prior, deskew and register
-/// once more with the motion found, add the scan to the map. Sources: gate and two thinnings, Vizzo
+/// once more with the motion found, add the scan to the map. A prediction that is not sure enough
+/// for one start, or a step of the clock, gives several; the one that most points fit is taken
+/// (pose_search.h). Sources: gate and two thinnings, Vizzo
 /// et al., "KISS-ICP" (RA-L 2023), sec. III; planes of voxels, Yuan et al., "VoxelMap" (RA-L 2022),
 /// sec. III; deskewing by the motion between two scans, Dellenbach et al., "CT-ICP" (ICRA 2022).
 /// Cost: its README. One thread; after the first scans only the estimate's points are allocated.
@@ -126,12 +145,21 @@ class Odometry {
     RegistrationResult registration;
     Sweep sweep;
     double gate_m = 0;
+    double share = 0;  ///< of the points, on planes
     OdometryReason reason = OdometryReason::none;
   };
 
+  [[nodiscard]] std::pair<Prediction, Fit> most_likely(const lidar::Scan& scan);
+  [[nodiscard]] static bool more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
+                                        const Prediction& of_b);
   [[nodiscard]] OdometryEstimate start(const lidar::Scan& scan);
   [[nodiscard]] OdometryEstimate refused(const lidar::Scan& scan) const;
   [[nodiscard]] Fit fit(const lidar::Scan& scan, const Prediction& prediction);
+  /// Where registration starts: the prediction or, where it leaves too much open, what most points
+  /// fit.
+  [[nodiscard]] SE3 start_of(const lidar::Scan& scan, const Prediction& prediction, double gate_m);
+  [[nodiscard]] OdometryReason judge(const RegistrationResult& result, std::size_t points,
+                                     bool searched) const;
   [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
                                         const Fit& fit) const;
 
@@ -157,6 +185,7 @@ class Odometry {
   OdometryConfig config_;
   VoxelMap map_;
   Registration registration_;
+  PoseSearch search_;
   AdaptiveGate gate_;
   MotionModel motion_;
   VoxelFilter filter_;
@@ -166,8 +195,9 @@ class Odometry {
   Time stamp_ = 0;
   SE3 T_odom_stamp_ = SE3::Identity();  // the last estimate
   Time pruned_stamp_ = 0;
-  int misfits_ = 0;  // scans in a row
-  FirstScan first_;  // emptied when it was put in again
+  int misfits_ = 0;         // scans in a row
+  double usual_share_ = 0;  // of points on planes; 0: not known yet
+  FirstScan first_;         // emptied when it was put in again
   std::vector<std::uint32_t> map_sample_, registration_sample_, coarse_sample_;
   std::vector<Eigen::Vector3d> scratch_;
 };

@@ -82,12 +82,46 @@ TEST(MotionModel, AccelerationMovesItByItsSquareOfTime) {
   EXPECT_NEAR(std::sqrt(P(3, 3)), expected, 0.01 * expected);
 }
 
-TEST(MotionModel, ALongGapIsPredictedAsIfItWereShorter) {
+TEST(MotionModel, OverALongGapItGoesOnForAWhileAndIsAnywhereThatItMayHaveFlownTo) {
   const MotionConfig config;
   const Prediction prediction = following(kStraight, 3).predict(from_seconds(60.3), {});
-  EXPECT_EQ(prediction.seconds, config.max_interval_s);
-  EXPECT_NEAR(prediction.prior.T_odom_lidar.translation().x(), 6 * (0.3 + config.max_interval_s),
+  EXPECT_NEAR(prediction.seconds, 60, 1e-9);
+  EXPECT_NEAR(prediction.prior.T_odom_lidar.translation().x(), 6 * (0.3 + config.max_coast_s),
               1e-6);
+  EXPECT_NEAR(std::sqrt(prediction.prior.covariance(3, 3)), 60 * config.initial_speed_mps, 1e-6);
+}
+
+TEST(MotionModel, WhereTheClockMayHaveSteppedTheUsualIntervalIsOfferedToo) {
+  const MotionModel model = following(kStraight, 60);
+  EXPECT_FALSE(model.predict_stepped(from_seconds(6.1), {}).has_value());
+  const auto stepped = model.predict_stepped(from_seconds(16), {});
+  ASSERT_TRUE(stepped.has_value());
+  EXPECT_NEAR(stepped->seconds, 0.1, 1e-9);
+  EXPECT_NEAR(stepped->prior.T_odom_lidar.translation().x(), 6 * 6.1, 1e-6);
+  EXPECT_FALSE(model.predict_stepped(from_seconds(16), steady(6, 16)).has_value());
+}
+
+TEST(MotionModel, TheInertialUnitBridgesScansThatAreNotRegistered) {
+  MotionModel model({});
+  model.start(0, along_x(0));
+  Time now = 0;
+  for (int i = 0; i < 10; ++i) {
+    now += 100'000'000;
+    model.accept(model.predict(now, steady(0.1 * i, 0.1 * (i + 1))), along_x(0), kKnown);
+  }
+  const Eigen::Vector3d forward(1, 0, 0);
+  const auto imu = steady(1, 4, testing::kUp + forward);
+  Matrix6d sum = Matrix6d::Zero();
+  Prediction last;
+  for (int i = 0; i < 30; ++i) {
+    last = model.predict(now += 100'000'000, imu);
+    ASSERT_TRUE(last.inertial.has_value());
+    sum += last.motion_covariance;
+    model.coast(last);
+  }
+  EXPECT_NEAR(last.prior.T_odom_lidar.translation().x(), 0.5 * 3 * 3, 0.1);
+  EXPECT_NEAR(last.seconds, 3, 1e-9);
+  EXPECT_NEAR(std::sqrt(sum(3, 3)), std::sqrt(last.prior.covariance(3, 3)), 0.02);
 }
 
 TEST(MotionModel, WithoutRegistrationGoesOnForAWhileAndThenStands) {
