@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -58,13 +59,13 @@ TEST(Capture, WhatIsWrittenReadsBackWholeOrInFragments) {
 /// A capture of one datagram to port 7502 at 5.25 s, by the format's description.
 Bytes made_pcap(bool nanoseconds, bool big_endian, std::uint32_t link, std::size_t link_head) {
   const Bytes data = payload(48, 1);
-  Bytes packet(link_head + 28, 0);
-  std::uint8_t* ip = &packet[link_head];
-  ip[0] = 0x45;
+  std::array<std::uint8_t, 28> ip = {0x45};
   ip[9] = 17;
-  write_network16(static_cast<unsigned>(28 + data.size()), ip + 2);
-  write_network16(7502, ip + 22);
-  write_network16(static_cast<unsigned>(8 + data.size()), ip + 24);
+  write_network16(static_cast<unsigned>(28 + data.size()), &ip[2]);
+  write_network16(7502, &ip[22]);
+  write_network16(static_cast<unsigned>(8 + data.size()), &ip[24]);
+  Bytes packet(link_head);
+  packet.insert(packet.end(), ip.begin(), ip.end());
   packet.insert(packet.end(), data.begin(), data.end());
   Bytes file;
   testing::put(file, nanoseconds ? 0xA1B23C4DU : 0xA1B2C3D4U, big_endian);

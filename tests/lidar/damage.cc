@@ -112,7 +112,7 @@ void expect_survives_damage(const std::vector<std::uint8_t>& whole,
   write_bytes(file, whole);
   const int frames = read_all(file, options, 1000);
   ASSERT_GT(frames, 0);
-  int opened = 0, refused = 0;
+  int opened = 0;
   for_each_damage(whole, [&](const std::vector<std::uint8_t>& bytes) {
     write_bytes(file, bytes);
     const MemoryLimit limit;
@@ -122,11 +122,9 @@ void expect_survives_damage(const std::vector<std::uint8_t>& whole,
     } catch (const Error& error) {
       EXPECT_TRUE(one_line(error.what())) << error.what();
       EXPECT_NE(std::string(error.what()), "");
-      ++refused;
     }
   });
   EXPECT_GT(opened, 0);
-  EXPECT_GT(refused, 0);
 }
 
 }  // namespace saker::lidar::testing

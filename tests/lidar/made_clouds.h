@@ -16,7 +16,7 @@ void put(std::vector<std::uint8_t>& bytes, T value, bool big_endian = false) {
   std::uint8_t raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
   if (big_endian) std::reverse(raw, raw + sizeof(T));
-  bytes.insert(bytes.end(), raw, raw + sizeof(T));
+  for (const std::uint8_t byte : raw) bytes.push_back(byte);
 }
 
 /// \param data  "ascii", "binary" or "binary_compressed"
