@@ -1,7 +1,15 @@
 #include "saker/core/error.h"
 
+#include <algorithm>
+
 namespace saker {
 
-Error::Error(const std::string& line) : std::runtime_error(line) {}
+std::string one_line(std::string text) {
+  const auto control = [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; };
+  std::replace_if(text.begin(), text.end(), control, '?');
+  return text;
+}
+
+Error::Error(const std::string& line) : std::runtime_error(one_line(line)) {}
 
 }  // namespace saker

@@ -30,7 +30,8 @@ int sector_of(const Eigen::Vector3f& p) {
 std::vector<Eigen::Vector3f> sample(const std::vector<Eigen::Vector3f>& points) {
   std::vector<Eigen::Vector3f> finite;
   for (const Eigen::Vector3f& p : points) {
-    if (p.allFinite() && p.norm() > kMinRange) finite.push_back(p);
+    const float range = p.norm();  // of the largest numbers not finite
+    if (std::isfinite(range) && range > kMinRange) finite.push_back(p);
   }
   core::Rng rng(1);
   for (std::size_t i = 0; finite.size() > kSampled && i < kSampled; ++i) {

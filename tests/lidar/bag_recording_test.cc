@@ -200,5 +200,15 @@ TEST(BagRecording, OustersPacketsWithoutMetadataAskForThem) {
   EXPECT_TRUE(open_recording(folder / "a.bag", options)->next());
 }
 
+TEST(BagRecording, NamesOfTopicsStayInTheLineThatNamesThem) {
+  const TemporaryFolder folder;
+  auto messages = testing::made_drive(1, Encoding::kRos1);
+  for (MadeMessage& m : messages) m.type = "std_msgs/Int8", m.topic = "/a\nb";
+  write_bytes(folder / "a.bag", testing::made_ros1_bag(messages));
+  const std::string message = message_of(folder / "a.bag");
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_NE(message.find("/a?b (std_msgs/Int8"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace saker::lidar

@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 
+#include "made_bag.h"
+#include "made_clouds.h"
 #include "made_sensor.h"
 #include "saker/core/error.h"
+#include "saker/lidar/bytes.h"
 #include "saker/lidar/capture_reader.h"
 #include "saker/lidar/capture_writer.h"
 
@@ -49,6 +53,70 @@ TEST(Capture, WhatIsWrittenReadsBackWholeOrInFragments) {
     EXPECT_EQ(check_capture(reader), 40);
     EXPECT_EQ(reader.ended_early(), "");
     EXPECT_EQ(reader.lost_datagrams(), 0);
+  }
+}
+
+/// A capture of one datagram to port 7502 at 5.25 s, by the format's description.
+Bytes made_pcap(bool nanoseconds, bool big_endian, std::uint32_t link, std::size_t link_head) {
+  const Bytes data = payload(48, 1);
+  std::array<std::uint8_t, 28> ip = {0x45};
+  ip[9] = 17;
+  write_network16(static_cast<unsigned>(28 + data.size()), &ip[2]);
+  write_network16(7502, &ip[22]);
+  write_network16(static_cast<unsigned>(8 + data.size()), &ip[24]);
+  Bytes packet(link_head);
+  packet.insert(packet.end(), ip.begin(), ip.end());
+  packet.insert(packet.end(), data.begin(), data.end());
+  Bytes file;
+  testing::put(file, nanoseconds ? 0xA1B23C4DU : 0xA1B2C3D4U, big_endian);
+  for (const int version : {2, 4}) {
+    testing::put(file, static_cast<std::uint16_t>(version), big_endian);
+  }
+  const auto size = static_cast<std::uint32_t>(packet.size());
+  const std::uint32_t fraction = nanoseconds ? 250'000'000 : 250'000;
+  for (const std::uint32_t word : {0U, 0U, 65535U, link, 5U, fraction, size, size}) {
+    testing::put(file, word, big_endian);
+  }
+  file.insert(file.end(), packet.begin(), packet.end());
+  return file;
+}
+
+void expect_the_datagram(const std::filesystem::path& file) {
+  CaptureReader reader(file);
+  const auto datagram = reader.next();
+  ASSERT_TRUE(datagram);
+  EXPECT_EQ(datagram->captured, 5'250'000'000);
+  EXPECT_EQ(datagram->port, 7502);
+  EXPECT_TRUE(std::ranges::equal(datagram->payload, payload(48, 1)));
+  EXPECT_FALSE(reader.next());
+}
+
+TEST(Capture, EitherOrderOfBytesAndPrecisionOfTimeReadsTheSame) {
+  const TemporaryFolder folder;
+  for (const bool nanoseconds : {false, true}) {
+    for (const bool big_endian : {false, true}) {
+      testing::write_bytes(folder / "a.pcap", made_pcap(nanoseconds, big_endian, 101, 0));
+      expect_the_datagram(folder / "a.pcap");
+    }
+  }
+}
+
+TEST(Capture, IsReadOfEveryLinkWithIpAndRefusedOfOthersByTheirNumber) {
+  const TemporaryFolder folder;
+  // Loopback of two kinds, raw IP of two kinds, Linux cooked of two versions: numbers in files.
+  const std::pair<std::uint32_t, std::size_t> links[] = {{0, 4},   {108, 4},  {101, 0},
+                                                         {228, 0}, {113, 16}, {276, 20}};
+  for (const auto& [link, head] : links) {
+    SCOPED_TRACE(link);
+    testing::write_bytes(folder / "a.pcap", made_pcap(true, false, link, head));
+    expect_the_datagram(folder / "a.pcap");
+  }
+  testing::write_bytes(folder / "a.pcap", made_pcap(true, false, 105, 24));
+  try {
+    CaptureReader reader(folder / "a.pcap");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("link type 105"), std::string::npos) << error.what();
   }
 }
 

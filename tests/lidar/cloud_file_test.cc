@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <map>
 
+#include "made_clouds.h"
 #include "made_sensor.h"
 #include "saker/core/error.h"
 #include "saker/core/rng.h"
@@ -17,96 +17,22 @@
 namespace saker::lidar {
 namespace {
 
+using testing::MadePoint;
 using testing::TemporaryFolder;
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes bytes_of_text(const std::string& text) { return {text.begin(), text.end()}; }
-
-template <class T>
-void put(Bytes& bytes, T value, bool big_endian = false) {
-  std::uint8_t raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if (big_endian) std::reverse(raw, raw + sizeof(T));
-  bytes.insert(bytes.end(), raw, raw + sizeof(T));
-}
-
-const std::string kPcdHead =
-    "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity ring\n"
-    "SIZE 4 4 4 4 2\nTYPE F F F F U\nCOUNT 1 1 1 1 1\nWIDTH 3\nHEIGHT 1\n"
-    "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\n";
-
 /// Point i is (i + 1, −i, 0.5 i), intensity 10 i, ring i.
-Bytes records(bool planes, bool big_endian = false) {
-  Bytes bytes;
-  const auto number = [&](int i, int field) {
+std::vector<MadePoint> three_points() {
+  std::vector<MadePoint> points;
+  for (int i = 0; i < 3; ++i) {
     const auto n = static_cast<float>(i);
-    if (field == 4) return put(bytes, static_cast<std::uint16_t>(i), big_endian);
-    put(bytes, field == 0 ? n + 1 : field == 1 ? -n : field == 2 ? n / 2 : 10 * n, big_endian);
-  };
-  if (planes) {
-    for (int field = 0; field < 5; ++field) {
-      for (int i = 0; i < 3; ++i) number(i, field);
-    }
-  } else {
-    for (int i = 0; i < 3; ++i) {
-      for (int field = 0; field < 5; ++field) number(i, field);
-    }
+    points.push_back({n + 1, -n, n / 2, 10 * n, 0, static_cast<std::uint16_t>(i)});
   }
-  return bytes;
+  return points;
 }
 
-/// Literals only, as a packer may write them.
-Bytes lzf_of(const Bytes& bytes) {
-  Bytes packed;
-  for (std::size_t at = 0; at < bytes.size(); at += 32) {
-    const std::size_t count = std::min<std::size_t>(32, bytes.size() - at);
-    packed.push_back(static_cast<std::uint8_t>(count - 1));
-    packed.insert(packed.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                  bytes.begin() + static_cast<std::ptrdiff_t>(at + count));
-  }
-  return packed;
-}
-
-Bytes pcd(const std::string& kind) {
-  Bytes file = bytes_of_text(kPcdHead + "DATA " + kind + "\n");
-  if (kind == "ascii") {
-    const Bytes text = bytes_of_text("1 0 0 0 0\n2 -1 0.5 10 1\n3 -2 1 20 2\n");
-    file.insert(file.end(), text.begin(), text.end());
-  } else if (kind == "binary") {
-    const Bytes data = records(false);
-    file.insert(file.end(), data.begin(), data.end());
-  } else {
-    const Bytes planes = records(true), packed = lzf_of(planes);
-    put(file, static_cast<std::uint32_t>(packed.size()));
-    put(file, static_cast<std::uint32_t>(planes.size()));
-    file.insert(file.end(), packed.begin(), packed.end());
-  }
-  return file;
-}
-
-Bytes ply(const std::string& format) {
-  Bytes file = bytes_of_text("ply\nformat " + format +
-                             " 1.0\ncomment made\nelement vertex 3\nproperty float x\nproperty "
-                             "float y\nproperty float z\nproperty float scalar_Intensity\nproperty "
-                             "ushort ring\nelement face 0\nproperty list uchar int vertex_indices\n"
-                             "end_header\n");
-  const Bytes data = format == "ascii" ? bytes_of_text("1 0 0 0 0\n2 -1 0.5 10 1\n3 -2 1 20 2\n")
-                                       : records(false, format == "binary_big_endian");
-  file.insert(file.end(), data.begin(), data.end());
-  return file;
-}
-
-Bytes npy(const std::string& descr, const std::string& shape, const Bytes& data) {
-  const std::string head =
-      "{'descr': " + descr + ", 'fortran_order': False, 'shape': (" + shape + "), }\n";
-  Bytes file = bytes_of_text("\x93NUMPY");
-  put(file, std::uint8_t{1});
-  put(file, std::uint8_t{0});
-  put(file, static_cast<std::uint16_t>(head.size()));
-  file.insert(file.end(), head.begin(), head.end());
-  file.insert(file.end(), data.begin(), data.end());
-  return file;
-}
+Bytes pcd(const std::string& data) { return testing::made_pcd(data, three_points()); }
+Bytes ply(const std::string& format) { return testing::made_ply(format, three_points()); }
 
 std::string parse(ByteView bytes, Cloud& cloud) {
   switch (cloud_format(bytes)) {
@@ -129,9 +55,7 @@ std::map<std::string, Bytes> every_kind() {
           {"ply ascii", ply("ascii")},
           {"ply little", ply("binary_little_endian")},
           {"ply big", ply("binary_big_endian")},
-          {"npy records", npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('intensity', '<f4'), "
-                              "('ring', '<u2')]",
-                              "3,", records(false))}};
+          {"npy records", testing::made_npy(three_points())}};
 }
 
 TEST(CloudFile, EveryKindGivesTheSamePoints) {
@@ -184,11 +108,11 @@ TEST(CloudFile, RowsOfNumpyWithoutNamesAreToldByTheirNumbers) {
   for (int i = 0; i < 400; ++i) {
     const auto n = static_cast<double>(i);
     for (const double value : {10 * std::cos(n), 10 * std::sin(n), -1.5, 0.3 + 0.001 * (i % 100)}) {
-      put(data, value);
+      testing::put(data, value);
     }
   }
   Cloud cloud;
-  ASSERT_EQ(parse_npy(npy("'<f8'", "400, 4", data), cloud), "");
+  ASSERT_EQ(parse_npy(testing::npy_of("'<f8'", "400, 4", data), cloud), "");
   EXPECT_EQ(cloud.layout.names(), "x y z intensity");
   EXPECT_EQ(cloud.columns, 400U);
 }
@@ -201,6 +125,7 @@ TEST(Lzf, RepeatsWhatWasThere) {
   EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "abcabcabcaaaaaaaaaaa");
   EXPECT_FALSE(decompress_lzf(packed, 19, bytes));
   EXPECT_FALSE(decompress_lzf(Bytes{1 << 5, 0}, 3, bytes));  // before the beginning
+  EXPECT_FALSE(decompress_lzf(packed, std::size_t{1} << 40, bytes));
 }
 
 TEST(CloudFolder, GivesScansInNaturalOrderAndGoesOnAfterABadOne) {
@@ -238,6 +163,39 @@ TEST(CloudFolder, ACloudWithoutXYZIsRefusedByItsFields) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("fields a b"), std::string::npos) << error.what();
   }
+}
+
+/// The fault of a head with these lines, behind which hardly anything stands.
+std::string fault_of(const std::string& head) {
+  Cloud cloud;
+  const std::string file = "FIELDS x y z\n" + head + "\n1 2 3\n";
+  return parse_pcd(Bytes(file.begin(), file.end()), cloud);
+}
+
+TEST(PcdFile, PointsThatItsBytesCannotHoldTakeNoMemory) {
+  EXPECT_NE(fault_of("WIDTH 20000000\nDATA ascii"), "");
+  EXPECT_NE(fault_of("COUNT 4096 4096 4096\nWIDTH 6\nDATA ascii"), "");
+  EXPECT_NE(fault_of("COUNT 4096 4096 4096\nWIDTH 20000000\nDATA binary"), "");
+  EXPECT_NE(fault_of("WIDTH 20000001\nDATA ascii").find("expected 0 to 20000000"),
+            std::string::npos);
+}
+
+TEST(PcdFile, WithoutAUsableSizeIsRefused) {
+  for (const char* size : {"", "WIDTH a", "WIDTH -1\nHEIGHT -1", "WIDTH 1\nHEIGHT b"}) {
+    EXPECT_NE(fault_of(size + std::string("\nDATA ascii")).find("WIDTH and HEIGHT"),
+              std::string::npos)
+        << size;
+  }
+}
+
+TEST(PcdFile, OfRowsAndColumnsKeepsThem) {
+  Cloud cloud;
+  const std::string file =
+      "FIELDS x y z\nWIDTH 2\nHEIGHT 3\nPOINTS 6\nDATA ascii\n1 1 1\n2 1 1\n1 2 1\n2 2 1\n"
+      "1 3 1\n2 3 1\n";
+  ASSERT_EQ(parse_pcd(Bytes(file.begin(), file.end()), cloud), "");
+  EXPECT_EQ(cloud.rows, 3U);
+  EXPECT_EQ(cloud.columns, 2U);
 }
 
 }  // namespace

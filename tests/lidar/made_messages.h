@@ -138,27 +138,33 @@ struct MadeMessage {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Clouds at 10 Hz of 400 points on 16 rings, inertial samples at 100 Hz.
+inline constexpr Time kDriveBegin = 1'700'000'000 * kNanosecondsPerSecond;
+
+/// A scan of 400 points on 16 rings that takes a tenth of a second.
+inline std::vector<MadePoint> made_points(int scan) {
+  std::vector<MadePoint> points;
+  for (int i = 0; i < 400; ++i) {
+    const auto step = static_cast<float>(i);
+    points.push_back({2 + 0.1F * step, -3, 0.5F * static_cast<float>(scan), step / 2,
+                      static_cast<std::uint32_t>(i) * 249'000U,
+                      static_cast<std::uint16_t>(i % 16)});
+  }
+  return points;
+}
+
+/// Clouds of made_points at 10 Hz, inertial samples at 100 Hz.
 inline std::vector<MadeMessage> made_drive(int scans, Encoding encoding) {
   std::vector<MadeMessage> messages;
-  constexpr Time kBegin = 1'700'000'000 * kNanosecondsPerSecond;
   for (int scan = 0; scan < scans; ++scan) {
-    const Time begin = kBegin + scan * 100'000'000LL;
+    const Time begin = kDriveBegin + scan * 100'000'000LL;
     for (int i = 0; i < 10; ++i) {
       const Time stamp = begin + i * 10'000'000LL;
       messages.push_back(
           {"/imu/data", "sensor_msgs/Imu", stamp,
            made_imu(stamp, {0.1 * i, 0.2, 9.8}, {0.01, 0.02, 0.1 * scan}, encoding)});
     }
-    std::vector<MadePoint> points;
-    for (int i = 0; i < 400; ++i) {
-      const auto step = static_cast<float>(i);
-      points.push_back({2 + 0.1F * step, -3, 0.5F * static_cast<float>(scan), step / 2,
-                        static_cast<std::uint32_t>(i) * 249'000U,
-                        static_cast<std::uint16_t>(i % 16)});
-    }
     messages.push_back({"/points", "sensor_msgs/PointCloud2", begin + 100'000'000,
-                        made_cloud(points, begin, encoding)});
+                        made_cloud(made_points(scan), begin, encoding)});
   }
   return messages;
 }

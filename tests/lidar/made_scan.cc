@@ -1,6 +1,7 @@
 #include "lidar/made_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -76,6 +77,31 @@ RingFile ring_by_ring(const Scan& organised) {
   file.scan.reflectivity.assign(file.scan.size(), 0.5F);
   file.scan.offset_ns.assign(file.scan.size(), 0);
   return file;
+}
+
+Scan scan_in(const Eigen::Isometry3f& T_frame_sensor, std::uint64_t place) {
+  constexpr int kColumns = 900, kBlocks = 450;
+  core::Rng rng(place);
+  std::array<float, kBlocks> block_m{};
+  for (float& distance : block_m) distance = static_cast<float>(rng.uniform(4, 40));
+  std::array<float, kBlocks> height_m{};
+  for (float& height : height_m) height = static_cast<float>(rng.uniform(1.6, 2.1));
+  Scan scan;
+  for (const float degrees : uneven_elevations()) {
+    const float elevation = degrees * (kPi / 180);
+    for (int column = 0; column < kColumns; ++column) {
+      const float azimuth = static_cast<float>(column) * 360 / kColumns * (kPi / 180);
+      const int block = column * kBlocks / kColumns;
+      const float to_block = block_m[block];
+      const float to_ground = elevation < 0 ? height_m[block] / std::tan(-elevation) : 1000;
+      const float level = std::min(to_block, to_ground) + static_cast<float>(rng.normal(0, 0.01));
+      scan.ring.push_back(static_cast<std::uint16_t>(scan.size() / kColumns));
+      scan.points.push_back(T_frame_sensor * Eigen::Vector3f(level * std::cos(azimuth),
+                                                             level * std::sin(azimuth),
+                                                             level * std::tan(elevation)));
+    }
+  }
+  return scan;
 }
 
 }  // namespace saker::lidar::testing

@@ -35,4 +35,8 @@ struct RingFile {
 /// The same in an order that says nothing.
 [[nodiscard]] RingFile shuffled(RingFile file, std::uint64_t seed);
 
+/// A sensor 1.86 m over the ground among blocks at random distances on rough ground, its points in
+/// another frame. (About a sensor in a round place every point of its axis would see sharp rings.)
+[[nodiscard]] Scan scan_in(const Eigen::Isometry3f& T_frame_sensor, std::uint64_t place = 1);
+
 }  // namespace saker::lidar::testing

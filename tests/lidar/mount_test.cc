@@ -23,5 +23,16 @@ TEST(Mount, TakesThreeNumbersEach) {
   EXPECT_THROW((void)mount_pose({{1, 2, 3}, {0}}), Error);
 }
 
+TEST(Mount, PitchIsPositiveWithTheNoseDown) {
+  const SE3 T = mount_pose({{0, 0, 0}, {0, 10, 0}});
+  EXPECT_LT((T * Eigen::Vector3d::UnitX()).z(), -0.17);
+}
+
+TEST(Mount, KeepsLengthsAndHands) {
+  const SE3 T = mount_pose({{1, 2, 3}, {31, -12, 170}});
+  EXPECT_TRUE((T.linear().transpose() * T.linear()).isIdentity(1e-12));
+  EXPECT_NEAR(T.linear().determinant(), 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace saker::lidar

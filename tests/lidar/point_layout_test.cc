@@ -72,6 +72,25 @@ TEST(PointReader, TimesBeforeTheStampAreKept) {
   EXPECT_NEAR(scan.offset_ns[0], -100'000'000, 300);
 }
 
+TEST(PointReader, TimesOfPointsWithoutAReturnSayNothing) {
+  PointLayout layout;
+  for (const char* axis : {"x", "y", "z"}) layout.append(axis, NumberType::kF32);
+  layout.append("t", NumberType::kU64);
+  const std::uint64_t begin = static_cast<std::uint64_t>(kStamp);
+  for (const std::uint64_t none : {std::uint64_t{0}, ~std::uint64_t{0}, std::uint64_t{1} << 62}) {
+    Bytes bytes;
+    for (const std::uint64_t time : {none, begin, begin + 50'000'000, begin + 100'000'000, none}) {
+      for (int i = 0; i < 3; ++i) put(bytes, time == none ? 0.0F : 1.0F);
+      put(bytes, time);
+    }
+    PointReader reader(layout, "made");
+    Scan scan;
+    ASSERT_EQ(reader.read(bytes, 1, 5, bytes.size(), kStamp, scan), "");
+    EXPECT_EQ(scan.stamp, kStamp + 100'000'000);
+    EXPECT_EQ(scan.offset_ns, (std::vector<std::int32_t>{0, -100'000'000, -50'000'000, 0, 0}));
+  }
+}
+
 TEST(PointReader, TimesThatMakeNoScanAreNone) {
   const Scan scan = with_times<float>("time", NumberType::kF32, {0, 0, 0}, kStamp);
   EXPECT_EQ(scan.stamp, kStamp);
@@ -123,6 +142,19 @@ TEST(PointReader, IntensitiesAreScaledByTheFirstScansLargest) {
     ASSERT_EQ(reader.read(bytes, 1, 1, bytes.size(), 0, scan), "");
     EXPECT_FLOAT_EQ(scan.reflectivity[0], expected);
   }
+}
+
+TEST(PointReader, ReflectivitiesAreNeverBelowZeroNorNaN) {
+  PointLayout layout;
+  for (const char* field : {"x", "y", "z", "intensity"}) layout.append(field, NumberType::kF32);
+  Bytes bytes;
+  for (const float intensity : {-5.0F, static_cast<float>(NAN), 0.0F}) {
+    for (const float value : {1.0F, 2.0F, 3.0F, intensity}) put(bytes, value);
+  }
+  PointReader reader(layout, "made");
+  Scan scan;
+  ASSERT_EQ(reader.read(bytes, 1, 3, bytes.size(), 0, scan), "");
+  EXPECT_EQ(scan.reflectivity, (std::vector<float>{0, 0, 0}));
 }
 
 }  // namespace

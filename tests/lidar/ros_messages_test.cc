@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "made_messages.h"
 #include "saker/core/rng.h"
 
@@ -111,6 +113,48 @@ TEST(RosMessages, TransformsAreFollowedBothWays) {
   ASSERT_TRUE(T);
   EXPECT_TRUE(T->translation().isApprox(Eigen::Vector3d(-1, 2, 0)));
   EXPECT_FALSE(find_transform({base_lidar}, "lidar", "imu"));
+}
+
+TEST(RosMessages, TransformsThatAreNoTurnsAreLeftOut) {
+  for (const double bad : {static_cast<double>(NAN), 0.0, 2.0}) {
+    testing::MessageWriter writer(Encoding::kRos1);
+    writer.number(std::uint32_t{1});
+    writer.header(0, "lidar");
+    writer.text("imu");
+    writer.vector({1, 2, 3});
+    for (const double q : {0.0, 0.0, 0.0, bad}) writer.number(q);
+    EXPECT_TRUE(read_transforms(writer.done(), Encoding::kRos1).empty()) << bad;
+  }
+}
+
+TEST(RosMessages, ALengthThatTheBytesCannotHoldTakesNoMemory) {
+  testing::MessageWriter writer(Encoding::kRos1);
+  writer.header(0, "livox");
+  writer.number(std::uint64_t{0});
+  writer.number(std::uint32_t{0});
+  for (int i = 0; i < 4; ++i) writer.number(std::uint8_t{0});
+  writer.number(std::uint32_t{1000});
+  Bytes bytes = writer.done();
+  bytes.resize(bytes.size() + 1000 * 18);  // a byte less than a point has
+  EXPECT_FALSE(read_livox(bytes, Encoding::kRos1));
+  bytes.resize(bytes.size() + 1000);
+  EXPECT_TRUE(read_livox(bytes, Encoding::kRos1));
+}
+
+TEST(RosMessages, NamesOfFieldsStayInTheirLine) {
+  testing::MessageWriter writer(Encoding::kRos1);
+  writer.header(0, "lidar");
+  for (const std::uint32_t number : {1U, 1U, 1U}) writer.number(number);
+  writer.text("x\n\x1B[2J");
+  writer.number(std::uint32_t{0});
+  writer.number(std::uint8_t{7});
+  writer.number(std::uint32_t{1});
+  writer.number(std::uint8_t{0});
+  for (const std::uint32_t number : {4U, 4U}) writer.number(number);
+  writer.bytes(Bytes(4, 0));
+  const auto cloud = read_point_cloud2(writer.done(), Encoding::kRos1);
+  ASSERT_TRUE(cloud);
+  EXPECT_EQ(cloud->layout.names(), "x??[2J");
 }
 
 }  // namespace

@@ -75,5 +75,30 @@ TEST(ScanTimes, DatesThatDoNotFitAreRefused) {
   }
 }
 
+TEST(ScanTimes, DatesThatNoCalendarHasAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* text : {"2011-13-26 13:02:25", "2011-00-26 13:02:25", "2011-09-32 13:02:25",
+                           "2011-09-26 24:02:25", "2011-09-26 13:60:25", "2011-09-26 13:02:61",
+                           "2011--2147483648-26 13:02:25", "1969-09-26 13:02:25"}) {
+    std::ofstream(folder / "timestamps.txt") << text << "\n";
+    EXPECT_THROW((void)times_of_scans(folder.path(), Files{"a.bin"}), Error) << text;
+  }
+}
+
+TEST(ScanTimes, NumbersInNamesThatNoClockShowsAreNone) {
+  const TemporaryFolder folder;
+  for (const char* name : {"9999999999999999.bin", "9999999999999999999.bin", "9999999999_1.bin",
+                           "9999999999.5.bin"}) {
+    EXPECT_EQ(times_of_scans(folder.path(), Files{name}), std::vector<Time>{0}) << name;
+  }
+}
+
+TEST(ScanTimes, NamesWhoseTimesGoBackAreNone) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(
+      times_of_scans(folder.path(), Files{"1561000444490857630.bin", "1561000444390857630.bin"}),
+      (std::vector<Time>{0, 100'000'000}));
+}
+
 }  // namespace
 }  // namespace saker::lidar

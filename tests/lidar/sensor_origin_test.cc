@@ -14,6 +14,8 @@
 namespace saker::lidar {
 namespace {
 
+using testing::scan_in;
+
 constexpr float kDegree = 0.0174533F;
 
 /// As PandaSet publishes its scans.
@@ -23,33 +25,6 @@ Eigen::Isometry3f car_frame() {
   T_car_sensor.linear() =
       Eigen::AngleAxisf(0.9F * kDegree, Eigen::Vector3f::UnitY()).toRotationMatrix();
   return T_car_sensor;
-}
-
-/// A sensor 1.86 m over the ground among blocks at random distances on rough ground, its points in
-/// another frame. (About a sensor in a round place every point of its axis would see sharp rings.)
-Scan scan_in(const Eigen::Isometry3f& T_frame_sensor, std::uint64_t place = 1) {
-  constexpr int kColumns = 900, kBlocks = 450;
-  core::Rng rng(place);
-  std::array<float, kBlocks> block_m{};
-  for (float& distance : block_m) distance = static_cast<float>(rng.uniform(4, 40));
-  std::array<float, kBlocks> height_m{};
-  for (float& height : height_m) height = static_cast<float>(rng.uniform(1.6, 2.1));
-  Scan scan;
-  for (const float degrees : testing::uneven_elevations()) {
-    const float elevation = degrees * kDegree;
-    for (int column = 0; column < kColumns; ++column) {
-      const float azimuth = static_cast<float>(column) * 360 / kColumns * kDegree;
-      const int block = column * kBlocks / kColumns;
-      const float to_block = block_m[block];
-      const float to_ground = elevation < 0 ? height_m[block] / std::tan(-elevation) : 1000;
-      const float level = std::min(to_block, to_ground) + static_cast<float>(rng.normal(0, 0.01));
-      scan.ring.push_back(static_cast<std::uint16_t>(scan.size() / kColumns));
-      scan.points.push_back(T_frame_sensor * Eigen::Vector3f(level * std::cos(azimuth),
-                                                             level * std::sin(azimuth),
-                                                             level * std::tan(elevation)));
-    }
-  }
-  return scan;
 }
 
 void expect_near(const Eigen::Isometry3f& found, const Eigen::Isometry3f& truth) {

@@ -1,6 +1,7 @@
 #include "saker/lidar/bags/bag_recording.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "saker/core/error.h"
 #include "saker/lidar/metadata.h"
@@ -42,7 +43,8 @@ BagRecording::BagRecording(const RecordingParts& parts, const RecordingOptions& 
                     options.keep_ranges);
   } else {
     take_mount(prelude);
-    expected_ = static_cast<int>(file_->topics()[choice_.scans.front()].messages);
+    expected_ = static_cast<int>(std::min<long>(file_->topics()[choice_.scans.front()].messages,
+                                                std::numeric_limits<int>::max()));
   }
 }
 
@@ -86,8 +88,8 @@ void BagRecording::take_mount(const Prelude& prelude) {
   if (T) {
     R_lidar_imu_ = T->linear();
   } else {
-    mount_note_ = "no way from " + prelude.cloud_frame + " to " + prelude.imu_frame +
-                  " in /tf_static: the inertial unit's axes count as the lidar's";
+    mount_note_ = one_line("no way from " + prelude.cloud_frame + " to " + prelude.imu_frame +
+                           " in /tf_static: the inertial unit's axes count as the lidar's");
   }
 }
 
@@ -184,6 +186,10 @@ void BagRecording::take_imu(const Message& message, Encoding encoding) {
   sample.stamp = imu->header.stamp;
   sample.acceleration = R_lidar_imu_ * imu->acceleration * acceleration_unit_;
   sample.angular_velocity = R_lidar_imu_ * imu->angular_velocity;
+  if (!sample.acceleration.allFinite() || !sample.angular_velocity.allFinite()) {
+    ++counters_.bad_packets;
+    return;
+  }
   if (sample.stamp <= newest_imu_) {
     ++counters_.late_imu_samples;
     return;
@@ -208,7 +214,7 @@ void BagRecording::take_packet(const Message& message, Encoding encoding) {
 SourceCounters BagRecording::counters() const {
   SourceCounters counters = stream_ ? stream_->counters() : counters_;
   if (stream_) counters.bad_packets += counters_.bad_packets;
-  counters.ended_early = file_->amiss();
+  counters.ended_early = one_line(file_->amiss());
   return counters;
 }
 

@@ -10,7 +10,8 @@ namespace saker::lidar {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18;
-constexpr std::size_t kRoomToEnd = 64;  // decompressors want some to see that they are done
+constexpr std::size_t kMostOfOneLzfByte = 88;  // three of them repeat 264 at most
+constexpr std::size_t kRoomToEnd = 64;         // decompressors want some to see that they are done
 
 /// Grows `into` by a piece, at most to `most` bytes. \return bytes that may be written
 std::size_t grow(std::vector<std::uint8_t>& into, std::size_t used, std::size_t most) {
@@ -118,6 +119,7 @@ bool decompress(Compression compression, ByteView bytes, std::size_t most,
 
 bool decompress_lzf(ByteView bytes, std::size_t size, std::vector<std::uint8_t>& into) {
   into.clear();
+  if (size / kMostOfOneLzfByte > bytes.size()) return false;
   into.reserve(size);
   Cursor in(bytes);
   while (in.left() > 0) {

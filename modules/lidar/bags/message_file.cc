@@ -1,5 +1,7 @@
 #include "saker/lidar/bags/message_file.h"
 
+#include <utility>
+
 #include "saker/core/error.h"
 #include "saker/lidar/bags/mcap_file.h"
 #include "saker/lidar/bags/ros1_bag.h"
@@ -82,14 +84,16 @@ std::string plain_type(const std::string& type) {
   return at == std::string::npos ? type : type.substr(0, at) + type.substr(at + 4);
 }
 
-std::size_t TopicList::add(const Topic& topic) {
+std::size_t TopicList::add(Topic topic) {
+  topic.name = one_line(topic.name);
+  topic.type = one_line(topic.type);
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     if (topics_[i].name == topic.name && topics_[i].type == topic.type) {
       topics_[i].messages += topic.messages;
       return i;
     }
   }
-  topics_.push_back(topic);
+  topics_.push_back(std::move(topic));
   return topics_.size() - 1;
 }
 

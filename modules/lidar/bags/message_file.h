@@ -63,7 +63,7 @@ class MessageFile {
 class TopicList {
  public:
   /// \return its index
-  std::size_t add(const Topic& topic);
+  std::size_t add(Topic topic);
 
   [[nodiscard]] const std::vector<Topic>& all() const { return topics_; }
   void count(std::size_t topic, long messages) { topics_[topic].messages += messages; }

@@ -3,6 +3,8 @@
 #include <deque>
 #include <map>
 
+#include "saker/core/error.h"
+
 namespace saker::lidar {
 namespace {
 
@@ -45,10 +47,10 @@ std::string MessageReader::text() {
 
 ByteView MessageReader::bytes() { return cursor_.take(number<std::uint32_t>()); }
 
-std::size_t MessageReader::count() {
+std::size_t MessageReader::count(std::size_t least_bytes) {
   const std::size_t elements = number<std::uint32_t>();
-  if (elements <= cursor_.left()) return elements;
-  cursor_.skip(elements);  // fails
+  if (elements * least_bytes <= cursor_.left()) return elements;
+  cursor_.skip(elements * least_bytes);  // fails
   return 0;
 }
 
@@ -81,7 +83,7 @@ std::optional<CloudMessage> read_point_cloud2(ByteView bytes, Encoding encoding)
   if (fields > kMostFields) return std::nullopt;
   for (std::size_t i = 0; i < fields && reader.ok(); ++i) {
     PointField field;
-    field.name = reader.text();
+    field.name = one_line(reader.text());
     field.offset = reader.number<std::uint32_t>();
     const auto type = number_type(reader.number<std::uint8_t>());
     (void)reader.number<std::uint32_t>();  // how many; the first counts
@@ -111,7 +113,7 @@ std::optional<CloudMessage> read_livox(ByteView bytes, Encoding encoding) {
     cloud.layout.append(name, NumberType::kU8);
   }
   cloud.rows = 1;
-  cloud.columns = reader.count();
+  cloud.columns = reader.count(cloud.layout.step);
   cloud.row_step = cloud.columns * cloud.layout.step;
   cloud.made.reserve(cloud.row_step);
   const auto append = [&](auto value) {
@@ -168,7 +170,7 @@ std::vector<TransformMessage> read_transforms(ByteView bytes, Encoding encoding)
     const Eigen::Vector3d axis = reader.vector();
     const Eigen::Quaterniond turn(reader.number<double>(), axis.x(), axis.y(), axis.z());
     if (!reader.ok()) break;
-    if (!place.allFinite() || std::abs(turn.norm() - 1) > 0.01) continue;
+    if (!place.allFinite() || !(std::abs(turn.norm() - 1) <= 0.01)) continue;
     message.T_parent_child = Eigen::Translation3d(place) * turn.normalized();
     transforms.push_back(message);
   }

@@ -27,8 +27,8 @@ class MessageReader {
   /// A sequence of bytes.
   [[nodiscard]] ByteView bytes();
   [[nodiscard]] Eigen::Vector3d vector();
-  /// Elements of a sequence; 0 where there are not even so many bytes.
-  [[nodiscard]] std::size_t count();
+  /// Elements of a sequence of at least so many bytes each; 0 where there are fewer.
+  [[nodiscard]] std::size_t count(std::size_t least_bytes = 1);
   void skip_numbers(std::size_t numbers);  ///< of float64
 
   struct Header {

@@ -80,7 +80,8 @@ long whole_number(const std::string& word, long most) {
 std::string parse_text_points(Cursor& cursor, std::size_t points, Cloud& cloud) {
   const std::size_t fields = cloud.layout.fields.size();
   if (fields == 0) return "no fields, expected x, y and z";
-  if (points > cursor.left()) {
+  // A number has a digit at least, and a mark behind it but for the last one.
+  if (points > (cursor.left() + 1) / (2 * fields)) {
     return std::to_string(points) + " points in " + std::to_string(cursor.left()) +
            " bytes of text";
   }

@@ -81,7 +81,7 @@ std::string CloudFolder::read(std::size_t which, Scan& scan) {
     fault = reader_->read(cloud.bytes, cloud.rows, cloud.columns, cloud.columns * cloud.layout.step,
                           times_[which], scan);
   }
-  if (!fault.empty()) return file.filename().string() + ": " + fault;
+  if (!fault.empty()) return one_line(file.filename().string() + ": " + fault);
   if (T_lidar_sensor_) scan.T_lidar_sensor = *T_lidar_sensor_;
   return "";
 }

@@ -112,9 +112,10 @@ std::string parse_pcd(ByteView bytes, Cloud& cloud) {
   if (std::string fault = read_head(cursor, head); !fault.empty()) return fault;
   if (std::string fault = make_layout(head, cloud); !fault.empty()) return fault;
   const long width = head.number("WIDTH", -1), height = head.number("HEIGHT", 1);
-  const long points = head.number("POINTS", width * height);
+  const bool sized = width >= 0 && height >= 0;
+  const long points = head.number("POINTS", sized ? width * height : -1);
   if (points < 0 || points > static_cast<long>(kMostCloudPoints)) {
-    return "POINTS: expected 0 to " + std::to_string(kMostCloudPoints);
+    return "POINTS, or WIDTH and HEIGHT: expected 0 to " + std::to_string(kMostCloudPoints);
   }
   if (points == 0) return "holds no points";
   const bool organised = width > 0 && height > 1 && width * height == points;

@@ -77,7 +77,7 @@ std::size_t bytes_of(NumberType type) {
 }
 
 void PointLayout::append(std::string name, NumberType type) {
-  fields.push_back({std::move(name), step, type});
+  fields.push_back({one_line(std::move(name)), step, type});
   step += bytes_of(type);
 }
 
@@ -141,6 +141,11 @@ std::string PointReader::read(ByteView bytes, std::size_t rows, std::size_t colu
   scan.points.reserve(rows * columns);
   scan.reflectivity.reserve(rows * columns);
   times_.clear();
+  first_known_ = !time_;
+  for (std::size_t i = 0; i < rows * columns && !first_known_; ++i) {
+    first_known_ =
+        take_first_time(bytes.data() + i / columns * row_step + i % columns * layout_.step);
+  }
   for (std::size_t row = 0; row < rows; ++row) {
     const std::uint8_t* record = bytes.data() + row * row_step;
     for (std::size_t column = 0; column < columns; ++column, record += layout_.step) {
@@ -153,24 +158,36 @@ std::string PointReader::read(ByteView bytes, std::size_t rows, std::size_t colu
   return "";
 }
 
-void PointReader::read_record(const std::uint8_t* record, Scan& scan) {
+Eigen::Vector3f PointReader::place(const std::uint8_t* record) const {
   Eigen::Vector3f p;
   for (int i = 0; i < 3; ++i) p[i] = static_cast<float>(number(record, place_[i]));
   if (p.isZero(0)) p.setConstant(NAN);
-  scan.points.push_back(p);
+  return p;
+}
+
+/// Of a point with a return: where there is none drivers write a time of zero, or nothing.
+bool PointReader::take_first_time(const std::uint8_t* record) {
+  if (!place(record).allFinite()) return false;
+  if (is_float(time_->type)) {
+    first_number_ = number(record, *time_);
+    return std::isfinite(first_number_);
+  }
+  first_integer_ = integer(record + time_->offset, time_->type, layout_.big_endian);
+  return true;
+}
+
+void PointReader::read_record(const std::uint8_t* record, Scan& scan) {
+  scan.points.push_back(place(record));
   scan.reflectivity.push_back(intensity_ ? static_cast<float>(number(record, *intensity_)) : 0.0F);
   if (ring_) {
     const double ring = number(record, *ring_);
     scan.ring.push_back(ring >= 0 && ring < 65536 ? static_cast<std::uint16_t>(ring) : 0);
   }
-  if (!time_) return;
+  if (!time_ || !first_known_) return;
   if (is_float(time_->type)) {
-    const double value = number(record, *time_);
-    if (times_.empty()) first_number_ = std::isfinite(value) ? value : 0;
-    times_.push_back(value - first_number_);
+    times_.push_back(number(record, *time_) - first_number_);
   } else {
     const auto value = integer(record + time_->offset, time_->type, layout_.big_endian);
-    if (times_.empty()) first_integer_ = value;
     times_.push_back(static_cast<double>(static_cast<std::int64_t>(
         static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(first_integer_))));
   }
@@ -182,11 +199,11 @@ void PointReader::scale_reflectivity(Scan& scan) {
     for (const float value : scan.reflectivity) {
       if (std::isfinite(value)) largest = std::max(largest, value);
     }
-    if (largest <= 0) return;
-    intensity_scale_ = largest <= 1 ? 1 : largest <= 255 ? 255 : 65535;
+    if (largest > 0) intensity_scale_ = largest <= 1 ? 1 : largest <= 255 ? 255 : 65535;
   }
+  const double scale = intensity_scale_ > 0 ? intensity_scale_ : 1;
   for (float& value : scan.reflectivity) {
-    const auto scaled = static_cast<float>(value / intensity_scale_);
+    const auto scaled = static_cast<float>(value / scale);
     value = std::isfinite(scaled) ? std::clamp(scaled, 0.0F, 1.0F) : 0;
   }
 }

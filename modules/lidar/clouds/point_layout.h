@@ -69,6 +69,8 @@ class PointReader {
 
   [[nodiscard]] std::optional<Role> find(std::initializer_list<std::string_view> names) const;
   [[nodiscard]] double number(const std::uint8_t* record, const Role& role) const;
+  [[nodiscard]] Eigen::Vector3f place(const std::uint8_t* record) const;
+  bool take_first_time(const std::uint8_t* record);
   void read_record(const std::uint8_t* record, Scan& scan);
   void scale_reflectivity(Scan& scan);
   void place_times(Time stamp, Scan& scan);
@@ -78,7 +80,8 @@ class PointReader {
   std::optional<Role> intensity_, ring_, time_;
   double intensity_scale_ = 0;  // 0: not known yet
   double unit_ns_ = 0;          // of the points' times; 0: not known yet
-  std::vector<double> times_;   // as read, less the first
+  std::vector<double> times_;   // as read, less that of the first point with a return
+  bool first_known_ = false;
   std::int64_t first_integer_ = 0;
   double first_number_ = 0;
 };

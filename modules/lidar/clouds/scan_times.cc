@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr Time kTenthOfSecond = kNanosecondsPerSecond / 10;
 constexpr double kLargestTime = 9e9;  // seconds; beyond it nanoseconds overflow
+constexpr Time kLargestTime_ns = 9 * kNanosecondsPerSecond * kNanosecondsPerSecond;
 
 fs::path beside(const fs::path& scans, const char* name) {
   std::error_code ignored;
@@ -46,7 +47,12 @@ std::optional<Time> date_in(const std::string& line) {
                   &date.tm_hour, &date.tm_min, &seconds) != 6) {
     return std::nullopt;
   }
-  if (date.tm_year < 1970 || date.tm_year > 2200 || !(seconds >= 0 && seconds < 61)) {
+  const auto inside = [](int value, int least, int most) {
+    return value >= least && value <= most;
+  };
+  if (!inside(date.tm_year, 1970, 2200) || !inside(date.tm_mon, 1, 12) ||
+      !inside(date.tm_mday, 1, 31) || !inside(date.tm_hour, 0, 23) || !inside(date.tm_min, 0, 59) ||
+      !(seconds >= 0 && seconds < 61)) {
     return std::nullopt;
   }
   date.tm_year -= 1900;
@@ -93,6 +99,11 @@ std::vector<Time> read_dates(const fs::path& file, const std::vector<fs::path>& 
   return times;
 }
 
+std::optional<Time> time_from(long long number, Time unit) {
+  if (number > kLargestTime_ns / unit) return std::nullopt;
+  return number * unit;
+}
+
 /// The time that a name says, without its letters.
 std::optional<Time> time_in_name(const std::string& name) {
   std::vector<std::string> runs;
@@ -103,17 +114,19 @@ std::optional<Time> time_in_name(const std::string& name) {
   }
   if (runs.empty()) return std::nullopt;
   const std::string& last = runs.back();
-  if (last.size() == 19) return std::strtoll(last.c_str(), nullptr, 10);
-  if (last.size() == 16) return 1000 * std::strtoll(last.c_str(), nullptr, 10);
+  if (last.size() == 19) return time_from(std::strtoll(last.c_str(), nullptr, 10), 1);
+  if (last.size() == 16) return time_from(std::strtoll(last.c_str(), nullptr, 10), 1000);
   if (runs.size() < 2 || runs[runs.size() - 2].size() != 10 || last.size() > 9) {
     return std::nullopt;
   }
-  const Time seconds = std::strtoll(runs[runs.size() - 2].c_str(), nullptr, 10);
+  const auto seconds =
+      time_from(std::strtoll(runs[runs.size() - 2].c_str(), nullptr, 10), kNanosecondsPerSecond);
+  if (!seconds) return std::nullopt;
   const Time rest = std::strtoll(last.c_str(), nullptr, 10);
   // "1583836591.182" has thousandths, "1583836591_82590976" nanoseconds without their zeros.
   const bool point = name.find(runs[runs.size() - 2] + "." + last) != std::string::npos;
   const auto digits = static_cast<double>(last.size());
-  return seconds * kNanosecondsPerSecond +
+  return *seconds +
          (point ? std::llround(static_cast<double>(rest) * std::pow(10, 9 - digits)) : rest);
 }
 

@@ -1,0 +1,123 @@
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "fuzz.h"
+#include "lidar/made_bag.h"
+#include "lidar/made_clouds.h"
+#include "lidar/made_osf.h"
+#include "lidar/made_sensor.h"
+#include "saker/lidar/capture_writer.h"
+#include "saker/lidar/imu_packet.h"
+#include "saker/lidar/metadata.h"
+
+/// fuzz_seeds FOLDER: FOLDER/TARGET/ with a few good inputs of each target, as the tests make them.
+namespace saker::lidar::fuzz {
+namespace {
+
+using testing::Bytes;
+
+class Seeds {
+ public:
+  explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::filesystem::path file(const std::string& target) {
+    std::filesystem::create_directories(folder_ / target);
+    return folder_ / target / ("seed-" + std::to_string(next_++));
+  }
+  void add(const std::string& target, const Bytes& bytes) {
+    testing::write_bytes(file(target), bytes);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  int next_ = 0;
+};
+
+Bytes behind(std::uint8_t first, const Bytes& bytes) {
+  Bytes all = {first};
+  all.insert(all.end(), bytes.begin(), bytes.end());
+  return all;
+}
+
+void add_bags(Seeds& seeds) {
+  const auto ros1 = testing::made_drive(1, Encoding::kRos1);
+  const auto ros2 = testing::made_drive(1, Encoding::kCdr);
+  for (const char* name : {"none", "lz4", "bz2"}) {
+    seeds.add("ros1_bag", testing::made_ros1_bag(ros1, {name, 5, true, true}));
+  }
+  for (const char* name : {"none", "lz4", "zstd"}) {
+    seeds.add("mcap", testing::made_mcap(ros2, Encoding::kCdr, {name, 5, true, true}));
+  }
+  seeds.add("mcap", testing::made_mcap(ros1, Encoding::kRos1, {"none", 5, false, false}));
+  testing::write_ros2_database(ros2, seeds.file("ros2_database"));
+  for (std::size_t i = 9; i < 11; ++i) {  // an inertial sample and a cloud
+    seeds.add("ros_messages", behind(0, ros1[i].bytes));
+    seeds.add("ros_messages", behind(1, ros2[i].bytes));
+  }
+  seeds.add("ros_messages", behind(1, testing::made_quarter_turn("lidar", "imu", Encoding::kCdr)));
+}
+
+void add_clouds(Seeds& seeds) {
+  auto points = testing::made_points(1);
+  points.resize(40);
+  for (const char* data : {"ascii", "binary", "binary_compressed"}) {
+    seeds.add("pcd", testing::made_pcd(data, points));
+  }
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    seeds.add("ply", testing::made_ply(format, points));
+  }
+  seeds.add("npy", testing::made_npy(points));
+  seeds.add("npy", testing::npy_of("'<f4'", "40, 6", testing::made_floats(points)));
+  seeds.add("float_rows", testing::made_floats(testing::made_points(1)));
+}
+
+ImuSample imu_sample(const SensorInfo& info) {
+  ImuSample sample;
+  sample.stamp = testing::made_time(info, 0, 10);
+  sample.acceleration = {1, 2, 9};
+  sample.angular_velocity = {0.1, 0, 0};
+  return sample;
+}
+
+void add_ouster(Seeds& seeds) {
+  const auto& profiles = packet_profiles();
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const SensorInfo info = sensor(profiles[i]);
+    Bytes bytes = {static_cast<std::uint8_t>(i)};
+    for (const Bytes& packet : testing::made_packets(info, 0, 0)) {
+      const Bytes marked = behind(1, packet);
+      bytes.insert(bytes.end(), marked.begin(), marked.end());
+      if (bytes.size() > 8192) break;
+    }
+    seeds.add("packet", bytes);
+    const std::string json = metadata_json(info);
+    seeds.add("metadata", {json.begin(), json.end()});
+  }
+  const SensorInfo info = sensor(PacketProfile::kRng15Rfl8Nir8);
+  seeds.add("imu_packet", encode_imu(imu_sample(info), info));
+  seeds.add("imu_packet", encode_imu(std::vector<ImuSample>(8, imu_sample(info)), info));
+  CaptureWriter writer(seeds.file("capture"));
+  writer.write(0, info.imu_port, encode_imu(imu_sample(info), info));
+  for (const Bytes& packet : testing::made_packets(info, 0, 0)) {
+    writer.write(0, info.lidar_port, packet);
+  }
+  writer.finish();
+  for (const bool png : {false, true}) {
+    seeds.add("osf", testing::made_osf(testing::osf_sensor(), 1, png));
+  }
+}
+
+}  // namespace
+}  // namespace saker::lidar::fuzz
+
+int main(int count, char** words) {
+  if (count != 2) {
+    std::cerr << "fuzz_seeds FOLDER\n";
+    return 2;
+  }
+  saker::lidar::fuzz::Seeds seeds(words[1]);
+  saker::lidar::fuzz::add_bags(seeds);
+  saker::lidar::fuzz::add_clouds(seeds);
+  saker::lidar::fuzz::add_ouster(seeds);
+}
