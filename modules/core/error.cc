@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "saker/core/one_line.h"
+
 namespace saker {
 
 std::string one_line(std::string text) {

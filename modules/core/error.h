@@ -5,9 +5,6 @@
 
 namespace saker {
 
-/// Text that somebody else wrote, for a line: control characters become "?".
-[[nodiscard]] std::string one_line(std::string text);
-
 /// A wrong configuration, file or argument, found at set-up: one line that names file, key or
 /// field, the value found and what was expected. Never thrown inside a loop; `main` prints it and
 /// exits with status 2.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "saker/lidar/imu_packet.h"
 
@@ -10,6 +11,7 @@ namespace saker::lidar {
 namespace {
 
 constexpr std::size_t kMostImuSamplesWaiting = 4096;  // 40 s at 100 Hz
+constexpr std::size_t kMostImuPacketsWaiting = 16;    // without a packet of the lidar between them
 constexpr double kMostClocksApart = 10;               // seconds; one clock drives both in a sensor
 constexpr int kApartToBelieve = 3;                    // packets in a row; one may be damaged
 constexpr std::size_t kZonePacketBytes = 680;  // zone monitoring; told from others by its size
@@ -17,7 +19,7 @@ constexpr std::size_t kZonePacketBytes = 680;  // zone monitoring; told from oth
 }  // namespace
 
 OusterStream::OusterStream(const SensorInfo& info, bool keep_ranges)
-    : info_(info), format_(info), assembler_(info, keep_ranges) {}
+    : info_(info), format_(info), assembler_(info, keep_ranges), clock_(info) {}
 
 void OusterStream::add(std::span<const std::uint8_t> payload) {
   if (payload.size() == format_.packet_bytes()) return add_lidar(payload);
@@ -29,9 +31,11 @@ void OusterStream::add_lidar(std::span<const std::uint8_t> payload) {
   for (int i = format_.columns_per_packet() - 1; i >= 0; --i) {
     if (!format_.valid(payload, i)) continue;
     last_lidar_ = format_.time(payload, i);
+    clock_.hear(format_.frame_id(payload, i), format_.measurement_id(payload, i), last_lidar_);
     break;
   }
-  assembler_.add(payload);
+  if (!clock_.doubted()) place_imu();
+  assembler_.add(payload, clock_.correction());
 }
 
 void OusterStream::add_imu(std::span<const std::uint8_t> payload) {
@@ -40,6 +44,27 @@ void OusterStream::add_imu(std::span<const std::uint8_t> payload) {
     ++bad_imu_packets_;
     return;
   }
+  imu_packets_.push_back(std::move(samples));
+  if (imu_packets_.size() >= kMostImuPacketsWaiting) place_imu();
+}
+
+void OusterStream::place_imu() {
+  for (std::vector<ImuSample>& samples : imu_packets_) place(std::move(samples));
+  imu_packets_.clear();
+}
+
+/// Sent before or after the last step: whichever is nearer to the lidar's time.
+Time OusterStream::corrected(Time stamp) const {
+  const auto at = [stamp](Time correction) { return to_seconds(stamp) + to_seconds(correction); };
+  const double now = to_seconds(last_lidar_) + to_seconds(clock_.correction());
+  const bool before =
+      std::abs(at(clock_.correction_before()) - now) < std::abs(at(clock_.correction()) - now);
+  const Time correction = before ? clock_.correction_before() : clock_.correction();
+  return static_cast<Time>(static_cast<std::uint64_t>(stamp) +
+                           static_cast<std::uint64_t>(correction));
+}
+
+void OusterStream::place(std::vector<ImuSample> samples) {
   if (!imu_by_arrival_ && last_lidar_ != 0) {
     const double apart = std::abs(to_seconds(samples.back().stamp) - to_seconds(last_lidar_));
     imu_apart_ = apart > kMostClocksApart ? imu_apart_ + 1 : 0;
@@ -50,7 +75,10 @@ void OusterStream::add_imu(std::span<const std::uint8_t> payload) {
     }
   }
   if (imu_by_arrival_) time_by_arrival(samples);
-  for (const ImuSample& sample : samples) keep(sample);
+  for (ImuSample& sample : samples) {
+    sample.stamp = corrected(sample.stamp);
+    keep(sample);
+  }
 }
 
 void OusterStream::time_by_arrival(std::vector<ImuSample>& samples) {
@@ -74,7 +102,10 @@ void OusterStream::keep(const ImuSample& sample) {
   if (imu_.size() > kMostImuSamplesWaiting) imu_.pop_front();
 }
 
-void OusterStream::finish() { assembler_.finish(); }
+void OusterStream::finish() {
+  place_imu();
+  assembler_.finish();
+}
 
 std::optional<OusterStream::Item> OusterStream::take() {
   auto assembled = assembler_.take();
@@ -106,6 +137,7 @@ SourceCounters OusterStream::counters() const {
   counters.repeated_columns = from.repeated_columns;
   counters.missing_columns = from.missing_columns;
   counters.lost_frames = from.lost_frames;
+  counters.clock_steps = clock_.steps();
   counters.imu_samples = imu_samples_;
   counters.late_imu_samples = late_imu_samples_;
   return counters;

@@ -8,6 +8,7 @@
 
 #include "saker/lidar/recording.h"
 #include "saker/lidar/scan_assembler.h"
+#include "saker/lidar/sensor_clock.h"
 #include "saker/lidar/sensor_info.h"
 
 namespace saker::lidar {
@@ -19,7 +20,8 @@ namespace saker::lidar {
 /// stamp; later ones wait for the next frame. Samples that are not newer than the last one given
 /// out are dropped and counted. Where the inertial unit's clock is seconds away from the lidar's,
 /// its samples get the time of the lidar packet that arrived before them instead; `imu_by_arrival`
-/// says so.
+/// says so. Where the sensor's clock steps, stamps go on as if it had not (sensor_clock.h),
+/// counted.
 class OusterStream {
  public:
   struct Item {
@@ -43,6 +45,9 @@ class OusterStream {
  private:
   void add_lidar(std::span<const std::uint8_t> payload);
   void add_imu(std::span<const std::uint8_t> payload);
+  void place_imu();
+  void place(std::vector<ImuSample> samples);
+  [[nodiscard]] Time corrected(Time stamp) const;
   void time_by_arrival(std::vector<ImuSample>& samples);
   void keep(const ImuSample& sample);
   [[nodiscard]] std::vector<ImuSample> imu_until(Time stamp);
@@ -50,8 +55,11 @@ class OusterStream {
   SensorInfo info_;
   PacketFormat format_;
   ScanAssembler assembler_;
+  SensorClock clock_;
+  // Packets that wait for the next one of the lidar, which tells whether the clock stepped.
+  std::vector<std::vector<ImuSample>> imu_packets_;
   std::deque<ImuSample> imu_;  // by time; the oldest are dropped beyond the ceiling
-  Time last_lidar_ = 0;        // time of the newest packet's last valid column
+  Time last_lidar_ = 0;        // stamp of the newest packet's last valid column, as sent
   Time last_imu_given_ = 0;
   bool imu_by_arrival_ = false;
   int imu_apart_ = 0;  // packets in a row whose time is far from the lidar's

@@ -60,6 +60,7 @@ std::string SourceCounters::summary() const {
   add(repeated_columns, "repeated columns");
   add(missing_columns, "missing columns");
   add(lost_frames, "lost frames");
+  add(clock_steps, "steps of the clock");
   add(other_sensors, "packets of other sensors");
   add(late_imu_samples, "late inertial samples");
   add(lost_fragments, "datagrams with fragments missing");

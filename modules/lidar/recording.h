@@ -37,6 +37,7 @@ struct SourceCounters {
   int lost_frames = 0;       ///< of which nothing came
   int lost_fragments = 0;    ///< of which fragments were missing
   int other_sensors = 0;     ///< packets of sensors that were not asked for
+  int clock_steps = 0;       ///< of the sensor's clock: stamps go on as if it had not
   int imu_samples = 0;       ///< used, for information
   int late_imu_samples = 0;  ///< not newer than those before
   std::string ended_early;   ///< why the recording ends before its end; empty when it does not

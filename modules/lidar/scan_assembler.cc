@@ -37,21 +37,25 @@ ScanAssembler::ScanAssembler(const SensorInfo& info, bool keep_ranges)
   column_offset_ns_.resize(columns);
 }
 
-void ScanAssembler::add(std::span<const std::uint8_t> packet) {
+void ScanAssembler::add(std::span<const std::uint8_t> packet, Time correction) {
   if (packet.size() != format_.packet_bytes()) {
     ++counters_.bad_packets;
     return;
   }
   bool late = false;
   for (int i = 0; i < format_.columns_per_packet(); ++i) {
-    if (format_.valid(packet, i)) add_column(packet, i, late);
+    if (format_.valid(packet, i)) add_column(packet, i, correction, late);
   }
   counters_.late_packets += late;
 }
 
-void ScanAssembler::add_column(std::span<const std::uint8_t> packet, int i, bool& late) {
+void ScanAssembler::add_column(std::span<const std::uint8_t> packet, int i, Time correction,
+                               bool& late) {
   const int column = format_.measurement_id(packet, i);
-  const Time time = format_.time(packet, i);
+  const Time sent = format_.time(packet, i);
+  const Time time =
+      static_cast<Time>(static_cast<std::uint64_t>(sent) +
+                        static_cast<std::uint64_t>(correction));  // any bytes may come
   if (column >= info_.columns || time < 0) {
     ++counters_.bad_columns;
     return;

@@ -42,7 +42,8 @@ class ScanAssembler {
   explicit ScanAssembler(const SensorInfo& info, bool keep_ranges = false);
 
   /// A UDP payload; any bytes are allowed. What it completes can be taken afterwards.
-  void add(std::span<const std::uint8_t> packet);
+  /// \param correction  ns, added to the stamps of its columns
+  void add(std::span<const std::uint8_t> packet, Time correction = 0);
 
   /// A whole frame that was put together before: pixels row by row, as sent (staggered).
   struct WholeFrame {
@@ -66,7 +67,7 @@ class ScanAssembler {
  private:
   enum class Verdict { kBelongs, kLate, kNew };
 
-  void add_column(std::span<const std::uint8_t> packet, int i, bool& late);
+  void add_column(std::span<const std::uint8_t> packet, int i, Time correction, bool& late);
   [[nodiscard]] Verdict judge(int frame_id) const;
   void begin(int frame_id);
   void end();

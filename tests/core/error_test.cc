@@ -1,4 +1,5 @@
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 
 #include <gtest/gtest.h>
 

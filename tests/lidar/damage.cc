@@ -9,6 +9,7 @@
 
 #include "made_bag.h"
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 #include "saker/core/rng.h"
 
 namespace saker::lidar::testing {

@@ -70,6 +70,47 @@ TEST(OusterStream, NamesFramesByRunningNumbersOfSixDigits) {
   EXPECT_EQ(stream.counters().summary(), "");
 }
 
+/// Frames 0 to 9, whose clock is `step` ahead from the middle of frame 5 on, each packet of the
+/// inertial unit after one of the lidar.
+void add_stepping(OusterStream& stream, Time step) {
+  const PacketFormat format(sensor());
+  for (int frame = 0; frame < 10; ++frame) {
+    for (int first = 0; first < 512; first += sensor().columns_per_packet) {
+      std::vector<Column> columns;
+      for (int i = 0; i < sensor().columns_per_packet; ++i) {
+        columns.push_back(testing::made_column(sensor(), frame, frame, first + i));
+        if (frame > 5 || (frame == 5 && first >= 256)) columns.back().time += step;
+      }
+      stream.add(format.encode(columns));
+      stream.add(imu_at(columns.back().time));
+    }
+  }
+  stream.finish();
+}
+
+TEST(OusterStream, StampsGoOnWhereTheClockSteps) {
+  for (const double step_s : {-3000.0, -1.0, 0.3, 1.0, 1e9}) {
+    OusterStream stream(sensor());
+    add_stepping(stream, from_seconds(step_s));
+    EXPECT_EQ(stream.counters().clock_steps, 1) << step_s;
+    Time last_imu = 0;
+    int samples = 0;
+    for (int frame = 0; frame < 10; ++frame) {
+      const auto item = stream.take();
+      ASSERT_TRUE(item);
+      EXPECT_NEAR(to_seconds(item->frame.scan.stamp - made_time(sensor(), frame, 511)), 0, 1e-3)
+          << step_s << " frame " << frame;
+      for (const ImuSample& sample : item->frame.imu) {
+        EXPECT_LT(sample.stamp - last_imu, from_seconds(last_imu == 0 ? 1e9 : 0.02));
+        EXPECT_GT(sample.stamp, last_imu);
+        last_imu = sample.stamp;
+        ++samples;
+      }
+    }
+    EXPECT_GE(samples, 10 * 512 / sensor().columns_per_packet - 4) << step_s;
+  }
+}
+
 TEST(OusterStream, WhatWasNotUsedIsToldInWords) {
   OusterStream stream(sensor());
   stream.add(testing::Bytes(17, 0));

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 #include "saker/lidar/metadata.h"
 
 namespace saker::lidar {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 #include "saker/lidar/bags/mcap_file.h"
 #include "saker/lidar/bags/ros1_bag.h"
 #include "saker/lidar/bags/ros2_database.h"

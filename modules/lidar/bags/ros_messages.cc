@@ -4,6 +4,7 @@
 #include <map>
 
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 
 namespace saker::lidar {
 namespace {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 #include "saker/lidar/clouds/cloud_file.h"
 #include "saker/lidar/clouds/natural_order.h"
 #include "saker/lidar/clouds/scan_times.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saker/core/error.h"
+#include "saker/core/one_line.h"
 
 namespace saker::lidar {
 namespace {

@@ -94,6 +94,7 @@ nlohmann::json source_figures(const lidar::SourceCounters& counters) {
           {"late_packets", counters.late_packets},
           {"repeated_columns", counters.repeated_columns},
           {"missing_columns", counters.missing_columns},
+          {"clock_steps", counters.clock_steps},
           {"other_sensors", counters.other_sensors},
           {"imu_samples", counters.imu_samples},
           {"late_imu_samples", counters.late_imu_samples},
