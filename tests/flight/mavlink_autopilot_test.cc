@@ -99,7 +99,8 @@ TEST_F(Ardupilot, FliesAJumpBackWhereTheTargetDoesNotFollow) {
 }
 
 TEST_F(Ardupilot, TakesOdometryInOneFrameAlone) {
-  EstimatorModel model(quirks_of(Autopilot::ardupilot));
+  const Quirks quirks = quirks_of(Autopilot::ardupilot);
+  EstimatorModel model(quirks);
   flight::mavlink::Odometry m;
   m.q = {1, 0, 0, 0};
   m.frame_id = 20;
@@ -126,7 +127,8 @@ TEST_F(Ardupilot, DiesOfANumberThatIsNone) {
 
 TEST_F(Ardupilot, ANumberOfOurFramesIsTurnedOnce) {
   flight::mavlink::Odometry m;
-  EstimatorModel model(quirks_of(Autopilot::ardupilot));
+  const Quirks quirks = quirks_of(Autopilot::ardupilot);
+  EstimatorModel model(quirks);
   m.x = 1;
   m.y = 2;
   m.z = -3;
@@ -174,7 +176,8 @@ TEST_F(Px4, LandsWhenSetpointsStop) {
 }
 
 TEST_F(Px4, TakesNoOdometryAfterAGapNorOfALidar) {
-  EstimatorModel model(quirks_of(Autopilot::px4));
+  const Quirks quirks = quirks_of(Autopilot::px4);
+  EstimatorModel model(quirks);
   flight::mavlink::Odometry m;
   m.q = {1, 0, 0, 0};
   m.frame_id = 20;
@@ -189,7 +192,8 @@ TEST_F(Px4, TakesNoOdometryAfterAGapNorOfALidar) {
 }
 
 TEST_F(Px4, BelievesStampsAfterFiveHundredExchanges) {
-  EstimatorModel model(quirks_of(Autopilot::px4));
+  const Quirks quirks = quirks_of(Autopilot::px4);
+  EstimatorModel model(quirks);
   flight::mavlink::Odometry m;
   m.q = {1, 0, 0, 0};
   m.frame_id = 20;

@@ -12,7 +12,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIO = """kind: mission
 mission:
-  site: {street_m: 60, parked_share: 0.3, targets: 1, prior_sd_m: 0.3}
+  site: {street_m: 80, parked_share: 0.35, targets: 1, prior_sd_m: 0.3}
   wind: {mean_mps: 1, gust_mps: 0.3}
   capture: {rows: 64, columns: 512}
 """

@@ -15,6 +15,7 @@ namespace saker::tools {
 
 class EstimatorModel {
  public:
+  /// \param quirks  have to outlive this
   explicit EstimatorModel(const Quirks& quirks) : quirks_(quirks) {}
 
   /// False where it is forgotten: too early, or there is one.

@@ -15,6 +15,7 @@ namespace saker::tools {
 
 class Guided {
  public:
+  /// \param quirks  have to outlive this
   explicit Guided(const Quirks& quirks) : quirks_(quirks) {}
 
   /// Stands there.
