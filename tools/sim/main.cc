@@ -1,6 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <memory>
 #include <optional>
 
 #include "flight/bus/priority.h"
@@ -11,13 +10,12 @@
 #include "saker/simulation/mission/scenario.h"
 #include "tools/saker/command.h"
 #include "tools/sim/real_time.h"
+#include "tools/sim/vehicle_craft.h"
 
 namespace saker::tools {
 namespace {
 
 constexpr int kPriority = 45;  // an aircraft waits for no program: below the executive's I/O alone
-
-constexpr double kHold = 600;  // s: through an autopilot it is told where to be all the time
 
 struct SimOptions {
   std::string scenario;
@@ -44,10 +42,7 @@ int simulate(const flight::ProcessOptions& options, const SimOptions& sim) {
   const flight::ProcessConfig config = flight::read_configuration(options.configuration);
   simulation::MissionConfig mission = read_mission(sim.scenario);
   const std::optional<Quirks> quirks = quirks_for(sim.mavlink);
-  if (quirks) {  // the inner loops obey: the autopilot has the time-outs
-    mission.controller.hold_s = kHold;
-    mission.controller.estimator.most_age_s = quirks->lost_s + quirks->failsafe_pause_s + 1;
-  }
+  if (quirks) put_behind(*quirks, mission);
   simulation::SimulatedVehicle vehicle(mission, sim.output.seed);
   std::optional<MavlinkLine> mavlink;
   if (quirks) mavlink.emplace(*quirks, sim.mavlink_line, vehicle.now());

@@ -5,6 +5,8 @@
 #include <array>
 #include <chrono>
 
+#include "tools/sim/vehicle_craft.h"
+
 namespace saker::tools {
 namespace {
 
@@ -13,17 +15,6 @@ constexpr int kMostReads = 64;  // datagrams in one step
 Time host_now() {
   using namespace std::chrono;
   return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
-CraftState craft_of(const simulation::SimulatedVehicle& vehicle, const VehicleState& state) {
-  const simulation::OdometryEstimator& at = vehicle.odometry();
-  CraftState craft;
-  craft.vehicle = state;
-  craft.T_odom_body.linear() = at.attitude();
-  craft.T_odom_body.translation() = at.position();
-  craft.velocity = at.velocity();
-  craft.angular_velocity = at.angular_velocity();
-  return craft;
 }
 
 }  // namespace
@@ -44,10 +35,7 @@ void MavlinkLine::step(simulation::SimulatedVehicle& vehicle, const VehicleState
   line_.step(host_now());
   read(vehicle.now());
   autopilot_.step(vehicle.now(), craft_of(vehicle, state));
-  const CraftOrders orders = autopilot_.take_orders();
-  for (const VehicleOdometry& odometry : orders.odometry) vehicle.send(odometry);
-  for (const Command& command : orders.commands) vehicle.send(command);
-  if (orders.setpoint) vehicle.send(*orders.setpoint);
+  obey(vehicle, autopilot_.take_orders());
   for (const auto& frame : autopilot_.take_frames()) line_.write(frame.span());
   log_changes();
 }
