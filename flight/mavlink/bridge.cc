@@ -187,7 +187,7 @@ void Bridge::step(Time now, SigningTime signing_now) {
   if (!state_.connected(now)) return;
   if (const auto question = time_sync_.question(now)) send(*question);
   if (ask_.due(now)) ask_for_messages();
-  if (dialect_.needs_origin && !state_.state().has_origin && origin_.due(now)) {
+  if (!state_.state().has_origin && origin_.due(now)) {
     SetGpsGlobalOrigin message;
     message.latitude = static_cast<std::int32_t>(std::lround(config_.latitude_deg * 1e7));
     message.longitude = static_cast<std::int32_t>(std::lround(config_.longitude_deg * 1e7));

@@ -22,6 +22,11 @@ void SensorToHost::hear(Time sensor_stamp, Time host_now) {
   const Time forgotten = anew ? 0 : drifted(host_now - heard_, kForget);
   offset_ = anew ? offset : std::min(offset, *offset_ + forgotten);
   heard_ = host_now;
+  recent_ = recent_ && !anew ? std::min(*recent_, offset) : offset;
+  if (!anew && host_now - window_began_ < kWindow) return;
+  if (*recent_ > *offset_ + kLate) offset_ = recent_;
+  recent_.reset();
+  window_began_ = host_now;
 }
 
 std::optional<Time> SensorToHost::host(Time sensor_stamp) const {

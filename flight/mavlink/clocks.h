@@ -13,7 +13,8 @@
 namespace saker::flight::mavlink {
 
 /// Sensor's clock → host's: of stamps that come late by different times the least late one counts;
-/// it is forgotten slowly, so that a drift of the two clocks is followed.
+/// it is forgotten slowly, so that a drift of the two clocks is followed, and at once where all
+/// stamps of `kWindow` came later by `kLate`: the sensor's clock was set back, or stood still.
 ///
 /// The mapped time is late by what the least late stamp was late by: what the odometry took at its
 /// fastest. That is part of the latency that the autopilot is told (EK3's VISO_DELAY_MS,
@@ -21,7 +22,9 @@ namespace saker::flight::mavlink {
 class SensorToHost {
  public:
   static constexpr Time kAnew = kNanosecondsPerSecond;  ///< back by more: a clock that began anew
-  static constexpr double kForget = 50e-6;              ///< s/s; quartz drifts less
+  static constexpr Time kWindow = 2 * kNanosecondsPerSecond;
+  static constexpr Time kLate = kNanosecondsPerSecond / 50;
+  static constexpr double kForget = 50e-6;  ///< s/s; quartz drifts less
 
   void hear(Time sensor_stamp, Time host_now);
 
@@ -32,6 +35,8 @@ class SensorToHost {
  private:
   std::optional<Time> offset_;  // host − sensor
   Time heard_ = 0;              // host's, last
+  std::optional<Time> recent_;  // the least of the window …
+  Time window_began_ = 0;       // … that began then
 };
 
 /// Autopilot's clock → host's by TIMESYNC: we ask, it answers with its time.

@@ -26,7 +26,6 @@ struct Dialect {
   Time stream_before_guided = 0;  ///< for which setpoints come before the mode is asked for
   bool resets_yaw = true;         ///< follows a reset of the heading of our odometry
   std::uint16_t estimator_message = 193;
-  bool needs_origin = true;  ///< knows no place before it has a global one
 };
 
 [[nodiscard]] inline Dialect dialect_of(Autopilot autopilot) {
@@ -42,8 +41,7 @@ struct Dialect {
             .own_takeoff = false,
             .stream_before_guided = 2 * kNanosecondsPerSecond,
             .resets_yaw = true,
-            .estimator_message = 230,
-            .needs_origin = false};
+            .estimator_message = 230};
   return {.autopilot = autopilot,
           .heartbeat_kind = 3,
           .guided = {4, 0, 4},
@@ -52,8 +50,7 @@ struct Dialect {
           .own_takeoff = true,
           .stream_before_guided = 0,
           .resets_yaw = false,
-          .estimator_message = 193,
-          .needs_origin = true};
+          .estimator_message = 193};
 }
 
 /// EXTENDED_SYS_STATE's landed_state.

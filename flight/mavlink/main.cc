@@ -3,6 +3,7 @@
 #include "flight/bus/presence.h"
 #include "flight/bus/priority.h"
 #include "flight/mavlink/mavlink_process.h"
+#include "flight/process/configuration.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
 #include "saker/core/error.h"

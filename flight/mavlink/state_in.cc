@@ -144,7 +144,7 @@ bool StateIn::came(std::uint32_t id, double seconds, Time now) const {
   return at != 0 && to_seconds(now - at) < seconds;
 }
 
-std::array<Wanted, 8> wanted_messages(const Dialect& dialect) {
+std::array<Wanted, 9> wanted_messages(const Dialect& dialect) {
   return {{{Heartbeat::kId, 2},
            {SysStatus::kId, 1},
            {ExtendedSysState::kId, 5},
@@ -152,7 +152,8 @@ std::array<Wanted, 8> wanted_messages(const Dialect& dialect) {
            {AttitudeQuaternion::kId, 50},
            {LocalPositionNed::kId, 20},
            {dialect.estimator_message, 5},
-           {RcChannels::kId, 5}}};
+           {RcChannels::kId, 5},
+           {GpsGlobalOrigin::kId, 0.2}}};
 }
 
 }  // namespace saker::flight::mavlink

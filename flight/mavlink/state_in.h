@@ -83,6 +83,6 @@ struct Wanted {
   std::uint32_t id = 0;
   double rate_hz = 0;
 };
-[[nodiscard]] std::array<Wanted, 8> wanted_messages(const Dialect& dialect);
+[[nodiscard]] std::array<Wanted, 9> wanted_messages(const Dialect& dialect);
 
 }  // namespace saker::flight::mavlink

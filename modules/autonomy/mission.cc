@@ -141,7 +141,7 @@ void Mission::arming(const MissionInput& input) {
     go(MissionPhase::takeoff, Cause::armed, fmt::format("to {:g} m", config_.height_m));
     takeoff_floor_m_ = input.odometry.T_odom_body.translation().z();
     commands_.issue(CommandKind::takeoff, config_.height_m, now_);
-  } else if (overdue(config_.takeoff_s)) {
+  } else if (overdue(std::max(config_.takeoff_s, config_.command.deadline_s))) {
     fail(Cause::command_deadline);
     go(MissionPhase::done, Cause::command_deadline, "arm: accepted, but it did not arm");
   }

@@ -141,6 +141,18 @@ TEST_F(MissionTest, WaitsUntilNothingHasBeenMissingForAWhile) {
   EXPECT_NEAR(to_seconds(now - clear), config.settle_s, 0.05);
 }
 
+/// An autopilot whose sensors settle is asked for a minute by the bridge.
+TEST_F(MissionTest, AnArmingThatMayTakeLongerThanATakeOffIsWaitedFor) {
+  config.command.deadline_s = 60;
+  mission = Mission(config);
+  ASSERT_TRUE(fly_to(MissionPhase::arming));
+  vehicle_answers = false;
+  fly(config.takeoff_s + 10);
+  EXPECT_EQ(mission.phase(), MissionPhase::arming);
+  vehicle_answers = true;
+  EXPECT_TRUE(fly_to(MissionPhase::tour));
+}
+
 TEST_F(MissionTest, RepeatsACommandWithTheSameIdUntilTheDeadline) {
   vehicle_answers = false;
   ASSERT_TRUE(fly_to(MissionPhase::done));

@@ -1,5 +1,7 @@
 #include <spdlog/spdlog.h>
 
+#include <optional>
+
 #include "flight/bus/priority.h"
 #include "flight/process/configuration.h"
 #include "flight/process/process.h"
@@ -8,6 +10,7 @@
 #include "saker/simulation/mission/scenario.h"
 #include "tools/saker/command.h"
 #include "tools/sim/real_time.h"
+#include "tools/sim/vehicle_craft.h"
 
 namespace saker::tools {
 namespace {
@@ -17,6 +20,8 @@ constexpr int kPriority = 45;  // an aircraft waits for no program: below the ex
 struct SimOptions {
   std::string scenario;
   RealTimeOptions real_time;
+  std::string mavlink;  // autopilot; empty: the flight-controller interface of LCM
+  std::string mavlink_line = "udp:127.0.0.1:14550";
   CommonOptions output;
 };
 
@@ -27,15 +32,24 @@ simulation::MissionConfig read_mission(const std::string& file) {
   return scenario.mission;
 }
 
+std::optional<Quirks> quirks_for(const std::string& mavlink) {
+  if (mavlink.empty()) return std::nullopt;
+  return quirks_of(mavlink == "px4" ? Autopilot::px4 : Autopilot::ardupilot);
+}
+
 /// 0 when it flew, or was ended, without touching anything.
 int simulate(const flight::ProcessOptions& options, const SimOptions& sim) {
   const flight::ProcessConfig config = flight::read_configuration(options.configuration);
-  const simulation::MissionConfig mission = read_mission(sim.scenario);
+  simulation::MissionConfig mission = read_mission(sim.scenario);
+  const std::optional<Quirks> quirks = quirks_for(sim.mavlink);
+  if (quirks) put_behind(*quirks, mission);
   simulation::SimulatedVehicle vehicle(mission, sim.output.seed);
+  std::optional<MavlinkLine> mavlink;
+  if (quirks) mavlink.emplace(*quirks, sim.mavlink_line, vehicle.now());
   flight::Bus bus(config.bus, options.robot);
   flight::Presence presence(bus, "saker-sim");
   presence.claim();
-  RealTime real_time(vehicle, bus, presence, sim.real_time);
+  RealTime real_time(vehicle, bus, presence, sim.real_time, mavlink ? &*mavlink : nullptr);
   const OutputFolder out(sim.output);
   lidar::SensorInfo sensor = vehicle.sensor();
   sensor.lidar_port = sim.real_time.lidar_port;
@@ -65,6 +79,11 @@ void add_options(CLI::App& app, SimOptions& sim) {
       ->capture_default_str();
   app.add_option("--imu-port", sim.real_time.imu_port, "UDP, of this machine")
       ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  app.add_option("--mavlink", sim.mavlink,
+                 "behind this autopilot's MAVLink instead of LCM: ardupilot or px4")
+      ->check(CLI::IsMember({"ardupilot", "px4"}));
+  app.add_option("--mavlink-line", sim.mavlink_line, "where the bridge listens")
       ->capture_default_str();
   app.add_option("-o,--out", sim.output.out, "folder of the results")->type_name("OUT")->required();
   app.add_flag("--force", sim.output.force, "replace results in OUT");

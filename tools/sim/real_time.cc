@@ -38,15 +38,16 @@ std::string names_of(std::uint32_t faults) {
 }  // namespace
 
 RealTime::RealTime(simulation::SimulatedVehicle& vehicle, flight::Bus& bus,
-                   flight::Presence& presence, const RealTimeOptions& options)
+                   flight::Presence& presence, const RealTimeOptions& options, MavlinkLine* mavlink)
     : vehicle_(vehicle),
       bus_(bus),
       presence_(presence),
       options_(options),
+      mavlink_(mavlink),
       lidar_(options.lidar_port),
       imu_(options.imu_port),
       begin_(vehicle.now()) {
-  subscribe();
+  if (!mavlink_) subscribe();
 }
 
 void RealTime::subscribe() {
@@ -82,13 +83,19 @@ void RealTime::send_packets() {
 void RealTime::send_states() {
   for (const CommandAck& ack : vehicle_.take_acks()) {
     spdlog::info("command {}: {}", ack.id, ack.accepted ? "accepted" : "refused: " + ack.reason);
-    bus_.publish(flight::to_lcm(ack));
+    if (!mavlink_) bus_.publish(flight::to_lcm(ack));
   }
-  if (const auto state = vehicle_.take_state()) {
+  if (auto state = vehicle_.take_state()) {
+    inner_state_ = *state;
+    if (mavlink_) state->armed = mavlink_->autopilot().armed();
     log_change(*state);
     last_state_ = *state;
-    bus_.publish(flight::to_lcm(*state));
+    if (!mavlink_) bus_.publish(flight::to_lcm(*state));
   }
+}
+
+void RealTime::serve_mavlink() {
+  if (mavlink_ && inner_state_.stamp != 0) mavlink_->step(vehicle_, inner_state_);
 }
 
 void RealTime::log_change(const VehicleState& state) {
@@ -121,6 +128,7 @@ SimRecorder::Run RealTime::run(SimRecorder& recorder, const std::function<bool()
     advance();
     send_packets();
     send_states();
+    serve_mavlink();
     recorder.record(vehicle_, last_state_);
     log_events();
     if (Steady::now() >= next_announcement) {

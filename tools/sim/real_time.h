@@ -5,6 +5,7 @@
 #include "flight/bus/bus.h"
 #include "flight/bus/presence.h"
 #include "saker/simulation/vehicle/simulated_vehicle.h"
+#include "tools/sim/mavlink_line.h"
 #include "tools/sim/sim_recorder.h"
 #include "tools/sim/udp_sender.h"
 
@@ -24,8 +25,9 @@ class RealTime {
  public:
   using Steady = std::chrono::steady_clock;
 
+  /// \param mavlink  not null: the vehicle obeys it alone, and nothing of the bus
   RealTime(simulation::SimulatedVehicle& vehicle, flight::Bus& bus, flight::Presence& presence,
-           const RealTimeOptions& options);
+           const RealTimeOptions& options, MavlinkLine* mavlink = nullptr);
 
   /// Until `stop` says so or the vehicle has flown, landed and disarmed. Throws Error when the
   /// network goes away.
@@ -36,6 +38,7 @@ class RealTime {
   void advance();
   void send_packets();
   void send_states();
+  void serve_mavlink();
   void log_change(const VehicleState& state);
   void log_events();
   [[nodiscard]] bool is_over() const;
@@ -44,6 +47,7 @@ class RealTime {
   flight::Bus& bus_;
   flight::Presence& presence_;
   RealTimeOptions options_;
+  MavlinkLine* mavlink_;
   UdpSender lidar_;
   UdpSender imu_;
 
@@ -51,6 +55,7 @@ class RealTime {
   Time begin_;
   double behind_s_ = 0;
   VehicleState last_state_;
+  VehicleState inner_state_;  // below the autopilot
   int events_begun_ = 0;
   Time disarmed_at_ = 0;  // after a flight
 };

@@ -81,6 +81,8 @@ class FlightController {
                                     std::optional<double> barometer_m, double battery_share);
 
   [[nodiscard]] VehicleState state() const;
+  /// Where it takes itself to be, in `odom`.
+  [[nodiscard]] const OdometryEstimator& odometry() const { return estimator_.odometry(); }
   [[nodiscard]] std::vector<CommandAck> take_acks();
   /// Why odometry is or was last doubted, for the log.
   [[nodiscard]] const char* odometry_doubt() const { return estimator_.doubt(); }

@@ -62,6 +62,8 @@ class SimulatedVehicle {
   [[nodiscard]] const MissionWorld& site() const { return site_; }
   /// The site as rays meet it now.
   [[nodiscard]] const RayCaster& caster() const { return caster_; }
+  /// Where the flight controller takes the vehicle to be, in `odom`.
+  [[nodiscard]] const OdometryEstimator& odometry() const { return controller_.odometry(); }
   [[nodiscard]] const char* odometry_doubt() const { return controller_.odometry_doubt(); }
 
   [[nodiscard]] VehicleTruth truth() const;

@@ -18,7 +18,7 @@ struct VehicleEstimatorConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("most_age_s", most_age_s, {0.05, 5}, "s",
+    v.field("most_age_s", most_age_s, {0.05, 30}, "s",
             "older odometry is none: the inertial unit carries a position so long");
     v.field("doubt_time_s", doubt_time_s, {0, 5}, "s",
             "of odometry that is not believed, before it is rejected");
