@@ -9,7 +9,7 @@ constexpr const char* kFaces =
 
 }  // namespace
 
-const std::array<core::MovedKey, 25> kOldKeys = {{
+const std::array<core::MovedKey, 26> kOldKeys = {{
     {"active.targets.default_size_m", nullptr, kClass},
     {"active.view.highest_deg", nullptr, "the sensor's metadata says its beams"},
     {"active.view.lowest_deg", nullptr, "the sensor's metadata says its beams"},
@@ -32,6 +32,7 @@ const std::array<core::MovedKey, 25> kOldKeys = {{
     {"detection.vehicle.tall", nullptr, kClass},
     {"detection.vehicle.width_m", nullptr, kClass},
     {"detection.vehicle.width_sd_m", nullptr, kClass},
+    {"odometry.motion.max_interval_s", nullptr, "odometry.motion.max_coast_s bounds it, too"},
     {"slam.landmarks.vehicle_length_m", nullptr, kClass},
     {"slam.merge", "multirobot", ""},
     {"slam.noise.fitted_class_width_m", nullptr, kClass},
