@@ -101,7 +101,7 @@ Bytes raw(const std::vector<T>& values) {
   return bytes;
 }
 
-Bytes scan_message(const SensorInfo& info, int frame, bool png) {
+Bytes scan_message(const SensorInfo& info, int frame, bool png, bool timed) {
   const auto ranges = made_ranges(info, frame);
   FlatWriter flat;
   const Bytes channel = png ? png32(ranges, info)
@@ -113,7 +113,7 @@ Bytes scan_message(const SensorInfo& info, int frame, bool png) {
   }
   const auto columns = static_cast<std::size_t>(info.columns);
   return flat.buffer({flat.tables({{flat.vector(channel, channel.size())}}), flat.vector({1, 3}, 1),
-                      flat.vector(raw(times), columns),
+                      timed ? flat.vector(raw(times), columns) : flat.vector({}, 0),
                       flat.vector(raw(std::vector<std::uint16_t>(columns, 0)), columns),
                       flat.vector(raw(std::vector<std::uint32_t>(columns, 1)), columns),
                       FlatWriter::number(std::int32_t{100 + frame})},
@@ -180,12 +180,12 @@ SensorInfo osf_sensor() {
   return info;
 }
 
-Bytes made_osf(const SensorInfo& info, int frames, bool png) {
+Bytes made_osf(const SensorInfo& info, int frames, bool png, bool timed) {
   FlatWriter flat;
   Bytes file;
   add_block(file, flat.buffer({FlatWriter::number(std::uint64_t{2})}, "OSF$", true));
   for (int frame = 0; frame < frames; ++frame) {
-    const Bytes message = scan_message(info, frame, png);
+    const Bytes message = scan_message(info, frame, png, timed);
     add_block(file, flat.buffer({flat.tables({{FlatWriter::number(std::uint64_t{1}),
                                                FlatWriter::number(std::uint32_t{2}),
                                                flat.vector(message, message.size())}})},

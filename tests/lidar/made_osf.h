@@ -9,7 +9,8 @@ namespace saker::lidar::testing {
 [[nodiscard]] SensorInfo osf_sensor();
 
 /// Frames of made_sensor.h, one a chunk. \param png  as older files have their images
-[[nodiscard]] Bytes made_osf(const SensorInfo& info, int frames, bool png);
+/// \param timed  false: scans without a time of a column
+[[nodiscard]] Bytes made_osf(const SensorInfo& info, int frames, bool png, bool timed = true);
 
 /// Today's packing of 32-bit numbers, by its description: planes of blue, green less blue, green
 /// less red and the fourth byte, each less its left neighbour.

@@ -75,6 +75,14 @@ TEST(OsfRecording, CutOrDamagedFilesNeverThrowPastTheOpening) {
   }
 }
 
+TEST(OsfRecording, AScanWithoutTimesIsAFault) {
+  const TemporaryFolder folder;
+  testing::write_bytes(folder / "drive", made_osf(osf_sensor(), 1, false, false));
+  const auto frame = open_recording(folder / "drive")->next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->fault, "0 columns, expected 512");
+}
+
 TEST(OsfImage, OfAnotherSizeOrDamagedIsRefused) {
   const auto ranges = testing::made_ranges(osf_sensor(), 0);
   for (const Bytes& whole :

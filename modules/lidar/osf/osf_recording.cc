@@ -40,7 +40,7 @@ template <class T>
 std::vector<T> numbers(const FlatTable& table, std::size_t field) {
   const ByteView bytes = table.bytes(field, sizeof(T));
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
   return values;
 }
 
