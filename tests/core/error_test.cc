@@ -1,7 +1,8 @@
 #include "saker/core/error.h"
-#include "saker/core/one_line.h"
 
 #include <gtest/gtest.h>
+
+#include "saker/core/one_line.h"
 
 namespace saker {
 namespace {
