@@ -15,7 +15,7 @@ struct PoseSearchConfig {
   double reach_sd = 2.5;
   double most_m = 6;
   double most_rad = 0.6;
-  double on_plane_m = 0.1;
+  double on_plane_m = 0.2;
   int points = 400;
   int most_poses = 3000;
   int kept = 4;
@@ -30,7 +30,7 @@ struct PoseSearchConfig {
     v.field("most_m", most_m, {0.1, 50}, "m", "never farther");
     v.field("most_rad", most_rad, {0.01, 3.2}, "rad", "nor turned by more");
     v.field("on_plane_m", on_plane_m, {0.01, 1}, "m",
-            "a point so near to the plane of its voxel is on it: some sd of a range");
+            "a point so near to the plane of its voxel is on it: half a step");
     v.field("points", points, {50, 10000}, "", "about so many points are looked up for each pose");
     v.field("most_poses", most_poses, {10, 100000}, "",
             "that are tried; more, and steps become longer");

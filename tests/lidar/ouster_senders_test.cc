@@ -127,6 +127,7 @@ TEST(OusterStream, OneInertialPacketWithAWildTimeIsDropped) {
   wild.acceleration = {0, 0, 9.8};
   wild.angular_velocity = {0, 0, 0};
   stream.add(encode_imu(wild, info));
+  stream.finish();
   EXPECT_FALSE(stream.imu_by_arrival());
   EXPECT_EQ(stream.late_imu_samples(), 1);
 }

@@ -89,7 +89,7 @@ void add_stepping(OusterStream& stream, Time step) {
 }
 
 TEST(OusterStream, StampsGoOnWhereTheClockSteps) {
-  for (const double step_s : {-3000.0, -1.0, 0.3, 1.0, 1e9}) {
+  for (const double step_s : {-900.0, -1.0, 0.3, 1.0, 1e9}) {
     OusterStream stream(sensor());
     add_stepping(stream, from_seconds(step_s));
     EXPECT_EQ(stream.counters().clock_steps, 1) << step_s;

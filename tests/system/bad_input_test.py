@@ -47,10 +47,10 @@ class BadInput(ProgramTest):
             (folder / f"{i:06d}.bin").write_bytes(room(rng))
         return folder
 
-    def replayed(self, recording):
+    def replayed(self, recording, status=0):
         out = self.folder / "out"
         run = saker("replay", recording, "-o", out, "--threads", 1)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.returncode, status, run.stderr)
         rows = (out / "trajectory.txt").read_text().splitlines()
         self.assertNotIn("nan", "".join(rows))
         return json.loads((out / "results.json").read_text()), rows
@@ -60,7 +60,8 @@ class BadInput(ProgramTest):
         (drive / "000003.bin").write_bytes(struct.pack("<4f", *[float("nan")] * 4) * 1000)
         (drive / "000005.bin").write_bytes(b"")
         (drive / "000007.bin").write_bytes(b"12345")
-        results, rows = self.replayed(drive)
+        results, rows = self.replayed(drive, status=1)
+        self.assertIn("3 of 10 scans were not registered", results["shortfalls"][0])
         self.assertEqual(len(rows), 10)
         named = {scan["name"] for scan in results["scans_not_registered"]}
         self.assertEqual(named, {"000003", "000005", "000007"})

@@ -18,6 +18,7 @@
 #include "tools/saker/picture/map_picture.h"
 #include "tools/saker/recording_input.h"
 #include "tools/saker/replay/run_recorder.h"
+#include "tools/saker/replay/shortfalls.h"
 #include "tools/saker/replay/trajectory_truth.h"
 
 namespace saker::tools {
@@ -91,6 +92,8 @@ nlohmann::json scans_not_used(const autonomy::LockstepResult& result) {
 nlohmann::json source_figures(const lidar::SourceCounters& counters) {
   return {{"faulty_scans", counters.faulty_scans},
           {"bad_packets", counters.bad_packets},
+          {"bad_columns", counters.bad_columns},
+          {"lost_frames", counters.lost_frames},
           {"late_packets", counters.late_packets},
           {"repeated_columns", counters.repeated_columns},
           {"missing_columns", counters.missing_columns},
@@ -127,7 +130,10 @@ nlohmann::json figures(const autonomy::LockstepResult& result, double wall_s,
 
 /// What a user wants to know at the end, and what was wrong with the recording.
 void report(const nlohmann::json& results) {
+  constexpr std::size_t kMostNamed = 20;  // the rest is in results.json
+  std::size_t named = 0;
   for (const auto& scan : results["scans_not_registered"]) {
+    if (++named > kMostNamed) break;
     spdlog::warn("scan {}: {}", scan["name"].get<std::string>(), scan["reason"].get<std::string>());
   }
   if (const int late = results["source"]["late_imu_samples"]; late > 0) {
@@ -169,6 +175,9 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
+  results["detections"] = recorder.detections();
+  const std::vector<std::string> short_of = shortfalls(result, recorder.detections());
+  results["shortfalls"] = short_of;
   if (truth)
     results["trajectory"] =
         trajectory_figures(result.scans, result.T_world_lidar, truth->trajectory);
@@ -181,7 +190,8 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
                      .cloud = recorder.cloud(result)},
                     config.objects);
   report(results);
-  return 0;
+  for (const std::string& line : short_of) spdlog::warn("{}", line);
+  return short_of.empty() ? 0 : 1;
 }
 
 }  // namespace

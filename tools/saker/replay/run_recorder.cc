@@ -34,6 +34,7 @@ void RunRecorder::on_scan(const autonomy::ScanRecord&, const odometry::OdometryE
 
 void RunRecorder::on_detections(const objects::Detections& detections) {
   detections_.add(detections);
+  count_ += static_cast<int>(detections.measurements.size());
 }
 
 void RunRecorder::write(const autonomy::LockstepResult& result) {

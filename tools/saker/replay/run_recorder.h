@@ -25,6 +25,9 @@ class RunRecorder : public autonomy::LockstepObserver {
   /// trajectory.txt, odometry.txt, map.json, map.smap; closes detections.jsonl.
   void write(const autonomy::LockstepResult& result);
 
+  /// Measurements of objects, in all windows.
+  [[nodiscard]] int detections() const { return count_; }
+
   /// Some points of the run in the frame of the map: what the picture shows behind the objects.
   [[nodiscard]] std::vector<Eigen::Vector3d> cloud(const autonomy::LockstepResult& result) const;
 
@@ -37,6 +40,7 @@ class RunRecorder : public autonomy::LockstepObserver {
   std::filesystem::path out_;
   const objects::ClassTable& table_;
   DetectionsWriter detections_;
+  int count_ = 0;  // of detections
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;
 };

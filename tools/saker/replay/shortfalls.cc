@@ -1,0 +1,39 @@
+#include "tools/saker/replay/shortfalls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace saker::tools {
+namespace {
+
+constexpr double kMostNotRegistered = 0.1;  // share of the scans
+
+}  // namespace
+
+std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int detections) {
+  const auto count = [&](auto what) {
+    return std::count_if(result.scans.begin(), result.scans.end(), what);
+  };
+  const auto scans = static_cast<double>(result.scans.size());
+  const auto lost = count(
+      [](const autonomy::ScanRecord& scan) { return scan.status != odometry::OdometryStatus::ok; });
+  const auto backwards = count([](const autonomy::ScanRecord& scan) {
+    return scan.reason == odometry::OdometryReason::not_newer;
+  });
+  std::vector<std::string> lines;
+  if (static_cast<double>(lost) > kMostNotRegistered * scans)
+    lines.push_back(
+        fmt::format("{} of {} scans were not registered: trajectory and map are in doubt", lost,
+                    result.scans.size()));
+  if (backwards > 0)
+    lines.push_back(fmt::format("time did not go on in {} scans: they were not used", backwards));
+  if (detections > 0 && result.map.objects.empty())
+    lines.push_back(
+        fmt::format("{} detections and no object: none was seen often enough to be sure of it "
+                    "(detections.jsonl)",
+                    detections));
+  return lines;
+}
+
+}  // namespace saker::tools
