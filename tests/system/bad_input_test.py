@@ -69,12 +69,13 @@ class BadInput(ProgramTest):
 
     def test_a_folder_with_one_capture_opens_and_a_cut_one_ends_early(self):
         folder = self.capture()
-        results, rows = self.replayed(folder)
+        results, rows = self.replayed(folder, status=1)
+        self.assertIn("no object", results["shortfalls"][0])  # four scans are too few to be sure of one
         self.assertEqual(len(rows), 4)
         whole = (folder / "flight.pcap").read_bytes()
         (folder / "flight.pcap").write_bytes(whole[: len(whole) * 3 // 5])
         run = saker("replay", folder, "-o", self.folder / "cut")
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertLess(run.returncode, 2, run.stderr)
         self.assertIn("ends early", run.stderr)
         shutil.copy(folder / "flight.pcap", folder / "second.pcap")
         self.assertIn("2 captures", self.refused("replay", folder, "-o", self.folder / "two"))
