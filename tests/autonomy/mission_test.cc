@@ -145,8 +145,8 @@ TEST_F(MissionTest, WaitsUntilNothingHasBeenMissingForAWhile) {
 TEST_F(MissionTest, AnArmingThatMayTakeLongerThanATakeOffIsWaitedFor) {
   config.command.deadline_s = 60;
   mission = Mission(config);
-  ASSERT_TRUE(fly_to(MissionPhase::arming));
   vehicle_answers = false;
+  ASSERT_TRUE(fly_to(MissionPhase::arming));
   fly(config.takeoff_s + 10);
   EXPECT_EQ(mission.phase(), MissionPhase::arming);
   vehicle_answers = true;
