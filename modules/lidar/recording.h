@@ -10,7 +10,7 @@
 
 /// Stage 0: recordings and live sensors, scan by scan.
 ///
-/// Reads KITTI-style folders and Ouster captures (and, through ouster_sensor.h, a live sensor);
+/// Reads recordings of any LiDAR (docs/formats.md) and, through ouster_sensor.h, a live Ouster;
 /// makes organised or unorganised scans with the inertial samples that came since the last one, in
 /// the order of time, all in the lidar frame. Method: kitti_folder.h, ouster_stream.h. Refuses a
 /// recording that is not there or whose metadata is wrong (Error); a scan that cannot be read

@@ -18,7 +18,7 @@ enum class Shape { none, cuboid, cylinder, plane };
   return {"none", "cuboid", "cylinder", "plane"};
 }
 
-/// A kind within a class, as vans are of vehicles.
+/// A kind within a class, as vans are of vehicles: detection/size_prior.h fits boxes by them.
 struct ObjectKind {
   std::string name;
   double share = 1;

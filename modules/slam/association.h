@@ -4,7 +4,8 @@
 
 #include "saker/slam/landmark.h"
 
-/// Nearest-neighbour association with fixed thresholds (the paper, section IV-B.2).
+/// Nearest-neighbour association with fixed thresholds (the paper, section IV-B.2). Two that became
+/// one later: duplicates.h; two in one cluster: detection/gap.h.
 namespace saker::slam {
 
 struct AssociationConfig {
