@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <set>
 #include <string>
 
 #include "saker/core/error.h"
@@ -126,7 +125,8 @@ KittiFolder::KittiFolder(const fs::path& path, const std::string& point_fields) 
   if (fields_ != kKittiFields) reader_.emplace(layout_of(fields_), path.string());
   times_ = one ? std::vector<Time>{0} : times_of_scans(scans, files_);
   if (fs::is_directory(parent_of(scans) / "ring", ignored)) rings_ = parent_of(scans) / "ring";
-  find_origin();
+  T_lidar_sensor_ = find_sensor_origin(
+      files_.size(), [this](std::size_t which, Scan& scan) { return read(which, scan); });
 }
 
 std::string KittiFolder::read(std::size_t which, Scan& scan) {
@@ -144,16 +144,6 @@ std::string KittiFolder::read(std::size_t which, Scan& scan) {
   if (!fault.empty()) return file.filename().string() + ": " + fault;
   if (T_lidar_sensor_) scan.T_lidar_sensor = *T_lidar_sensor_;
   return read_rings(rings_, file.stem().string(), scan);
-}
-
-void KittiFolder::find_origin() {
-  std::vector<Scan> scans;
-  const std::size_t last = files_.size() - 1;
-  for (const std::size_t i : std::set<std::size_t>{0, last / 2, last}) {
-    Scan scan;
-    if (read(i, scan).empty()) scans.push_back(std::move(scan));
-  }
-  T_lidar_sensor_ = find_sensor_origin(scans);
 }
 
 std::string KittiFolder::note() const {

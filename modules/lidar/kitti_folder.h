@@ -34,7 +34,6 @@ class KittiFolder : public ScanSource {
  private:
   /// \return the fault, or empty
   std::string read(std::size_t which, Scan& scan);
-  void find_origin();
 
   std::vector<std::filesystem::path> files_;
   std::filesystem::path rings_;  ///< folder of ring numbers, or empty

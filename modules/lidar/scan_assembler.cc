@@ -4,21 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "saker/lidar/frame_number.h"
+
 namespace saker::lidar {
 namespace {
 
 constexpr int kMostFramesLate = 16;        // 1.6 s at 10 Hz; anything further back is a restart
-constexpr int kMostFramesLost = 1000;      // a wider gap is a restart
 constexpr double kMostFramePeriods = 2.0;  // columns of a frame lie at most this far apart
 constexpr std::size_t kMostScansWaiting = 256;
 
 constexpr float kMetresPerMillimetre = 1e-3F;
 constexpr float kReflectivityScale = 1.0F / 255;
-
-/// Steps from one 16-bit frame number to another, the short way round.
-int frames_between(int from, int to) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
-}
 
 /// Differences of times that came off a wire must not overflow.
 double seconds_between(Time a, Time b) {

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <cstdint>
 
+#include "saker/lidar/frame_number.h"
+
 namespace saker::lidar {
 namespace {
 
 constexpr double kLeastStep_s = 0.1;     // jitter of stamps and order is far below
 constexpr double kLeastStepShare = 0.1;  // of the time between: motors are not that uneven
-constexpr int kMostFrames = 1200;        // two minutes at 10 Hz; more: numbered anew
 
-/// From a to b, of numbers that wrap at 65536.
-int frames_between(int a, int b) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(b - a));
+/// As a sum without a sign: any stamps may come.
+Time plus(Time a, Time b) {
+  return static_cast<Time>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
 }  // namespace
@@ -23,7 +24,7 @@ SensorClock::SensorClock(const SensorInfo& info)
 
 Time SensorClock::expected_since(const Heard& from, const Heard& to) const {
   const int frames = frames_between(from.frame_id, to.frame_id);
-  if (frames < -1 || frames > kMostFrames) return from_seconds(columns_ * column_period_s_);
+  if (frames < -1 || frames > kMostFramesLost) return from_seconds(columns_ * column_period_s_);
   return from_seconds((static_cast<double>(frames) * columns_ + to.column - from.column) *
                       column_period_s_);
 }
@@ -49,7 +50,7 @@ void SensorClock::hear(int frame_id, int column, Time stamp) {
     return;
   }
   correction_before_ = correction_;
-  correction_ += last_.stamp + expected_since(last_, heard) - stamp;
+  correction_ = plus(correction_, plus(last_.stamp - stamp, expected_since(last_, heard)));
   ++steps_;
   doubted_ = false;
   last_ = heard;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "saker/lidar/beam_sharpness.h"
@@ -209,6 +210,17 @@ std::optional<Eigen::Isometry3f> find_sensor_origin(std::span<const Scan> scans)
   if (!best || telling < std::min(kFewest, scans.size())) return std::nullopt;
   if (!explained(*best)) return std::nullopt;
   return transform_of(best->pose);
+}
+
+std::optional<Eigen::Isometry3f> find_sensor_origin(
+    std::size_t count, const std::function<std::string(std::size_t, Scan&)>& read) {
+  if (count == 0) return std::nullopt;
+  std::vector<Scan> scans;
+  for (const std::size_t i : std::set<std::size_t>{0, (count - 1) / 2, count - 1}) {
+    Scan scan;
+    if (read(i, scan).empty()) scans.push_back(std::move(scan));
+  }
+  return find_sensor_origin(std::span<const Scan>(scans));
 }
 
 std::string describe_sensor_origin(const Eigen::Isometry3f& T_lidar_sensor) {

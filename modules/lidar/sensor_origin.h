@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +37,11 @@ namespace saker::lidar {
 /// The origin of the sharpest scan, where at least two scans tell one (the only one, if there is
 /// one), at most one tells nothing, and all agree within 0.1 m upwards and 0.7 m along the ground.
 [[nodiscard]] std::optional<Eigen::Isometry3f> find_sensor_origin(std::span<const Scan> scans);
+
+/// The same of a recording of `count` scans, by its first, middle and last one that can be read.
+/// \param read  fills a scan; what it returns is a fault, or empty
+[[nodiscard]] std::optional<Eigen::Isometry3f> find_sensor_origin(
+    std::size_t count, const std::function<std::string(std::size_t, Scan&)>& read);
 
 /// "the recording's frame is not the sensor's: beams start at x 0.80 y 0.00 z 1.86 m, pitched by
 /// 0.9°, rolled by 0.0°".

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostSampledPoints =
     262144;  // two returns of a sensor of 128 rows and 1024 columns
 
-constexpr Time kImuMemory = 3 * kNanosecondsPerSecond;
+constexpr Time kImuMemory = 3 * kNanosecondsPerSecond;  // before the last scan
 
 /// The moment whose pose is registered: the middle of the scan (see Sweep).
 Time moment_of(const lidar::Scan& scan) {
@@ -89,7 +89,7 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
                                          std::span<const lidar::ImuSample> imu) {
   if (started_ && (scan.stamp <= stamp_ || moment_of(scan) <= motion_.moment()))
     return refused(scan);
-  imu_.add(imu, std::min(scan.stamp - kImuMemory, motion_.moment() - kImuMemory));
+  imu_.add(imu, motion_.moment() - kImuMemory);
   thin(scan);
   if (!started_) return start(scan);
   if (!first_.points.empty()) refine_first(scan);

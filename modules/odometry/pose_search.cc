@@ -38,13 +38,12 @@ PoseSearch::Grid PoseSearch::grid_over(const PosePrior& prior) const {
   reach.head<3>() = reach.head<3>().cwiseMin(config_.most_m);
   reach[3] = std::min(reach[3], config_.most_rad);
   Grid grid;
+  if (!reach.allFinite()) return grid;
   grid.step << config_.step_m, config_.step_m, config_.step_m, config_.step_rad;
-  for (double poses = INFINITY; poses > config_.most_poses; grid.step *= 1.2) {
+  for (;; grid.step *= 1.2) {
     grid.half = (reach.array() / grid.step.array()).round().cast<int>();
-    poses = (2 * grid.half.cast<double>().array() + 1).prod();
-    if (poses <= config_.most_poses) break;
+    if ((2 * grid.half.cast<double>().array() + 1).prod() <= config_.most_poses) return grid;
   }
-  return grid;
 }
 
 int PoseSearch::score(std::span<const Eigen::Vector3d> points, const SE3& T, VoxelMap& map,

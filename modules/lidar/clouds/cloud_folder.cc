@@ -1,7 +1,6 @@
 #include "saker/lidar/clouds/cloud_folder.h"
 
 #include <algorithm>
-#include <set>
 
 #include "saker/core/error.h"
 #include "saker/core/one_line.h"
@@ -67,7 +66,8 @@ CloudFolder::CloudFolder(const fs::path& path) {
   const std::string fault = read_cloud(files_.front(), cloud);
   if (!fault.empty()) throw Error(files_.front().string() + ": " + fault);
   reader_.emplace(cloud.layout, files_.front().string());
-  find_origin();
+  T_lidar_sensor_ = find_sensor_origin(
+      files_.size(), [this](std::size_t which, Scan& scan) { return read(which, scan); });
 }
 
 std::string CloudFolder::read(std::size_t which, Scan& scan) {
@@ -85,16 +85,6 @@ std::string CloudFolder::read(std::size_t which, Scan& scan) {
   if (!fault.empty()) return one_line(file.filename().string() + ": " + fault);
   if (T_lidar_sensor_) scan.T_lidar_sensor = *T_lidar_sensor_;
   return "";
-}
-
-void CloudFolder::find_origin() {
-  std::vector<Scan> scans;
-  const std::size_t last = files_.size() - 1;
-  for (const std::size_t i : std::set<std::size_t>{0, last / 2, last}) {
-    Scan scan;
-    if (read(i, scan).empty()) scans.push_back(std::move(scan));
-  }
-  T_lidar_sensor_ = find_sensor_origin(scans);
 }
 
 std::string CloudFolder::note() const {

@@ -25,7 +25,6 @@ class CloudFolder : public ScanSource {
 
  private:
   std::string read(std::size_t which, Scan& scan);
-  void find_origin();
 
   std::vector<std::filesystem::path> files_;
   std::vector<Time> times_;
