@@ -54,6 +54,8 @@ std::vector<ScenarioEvent> wall_in_the_way() {
   return {wall};
 }
 
+// Hazard: Stages and links | nothing reaches the flight controller any more | it levels and
+//   descends on inertial unit and barometer | 2
 TEST(Fault, WithoutTheExecutiveTheVehicleComesDownByItself) {
   FaultyFlight flight;
   ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::deaf; }));
@@ -63,6 +65,7 @@ TEST(Fault, WithoutTheExecutiveTheVehicleComesDownByItself) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Stages and links | the collision checker dies | stops on the way, then lands | 2
 TEST(Fault, WithoutTheCollisionCheckerItStops) {
   FaultyFlight flight;
   ASSERT_TRUE(flight.fly_fast_into([&] { flight.checker.die(); }));
@@ -72,6 +75,8 @@ TEST(Fault, WithoutTheCollisionCheckerItStops) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Stages and links | the collision checker begins again with an empty map | holds until
+//   it has seen enough, then goes on | 2
 TEST(Fault, ACheckerThatBeganAgainWithNothingIsFlownByAgain) {
   FaultyFlight flight;
   ASSERT_TRUE(flight.fly_fast_into([&] { flight.checker.die(); }));
@@ -84,6 +89,7 @@ TEST(Fault, ACheckerThatBeganAgainWithNothingIsFlownByAgain) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Sensor | no scan for 0.55 s | stops, goes on when scans come again | 2
 TEST(Fault, InALongGapOfScansItStopsAndThenFliesOn) {
   FaultyFlight flight;
   ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::blind; }, kGap_s,
@@ -96,6 +102,7 @@ TEST(Fault, InALongGapOfScansItStopsAndThenFliesOn) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Stages and links | vehicle and sensor fall silent | the mission says so and ends | –
 TEST(Fault, WithoutAPlantTheMissionSaysSoAndEnds) {
   FaultyFlight flight;
   ASSERT_TRUE(flight.fly_fast_into([&] { flight.plant.link = RecordedPlant::Link::gone; }));
@@ -106,6 +113,7 @@ TEST(Fault, WithoutAPlantTheMissionSaysSoAndEnds) {
   EXPECT_FALSE(flight.result().succeeded);
 }
 
+// Hazard: Sensor | the lidar stops for good | descends on the inertial unit | 2
 TEST(Fault, WithoutTheLidarItLands) {
   FaultyFlight flight(on_the_way(ScenarioEventKind::lidar_stop));
   ASSERT_TRUE(flight.fly_into_event());
@@ -115,6 +123,8 @@ TEST(Fault, WithoutTheLidarItLands) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Odometry | the flight controller gets one pose again and again | it rejects odometry
+//   and descends | 2
 TEST(Fault, WithOdometryThatFreezesItLands) {
   FaultyFlight flight(on_the_way(ScenarioEventKind::odometry_freeze));
   ASSERT_TRUE(flight.fly_into_event());
@@ -125,6 +135,7 @@ TEST(Fault, WithOdometryThatFreezesItLands) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Odometry | the flight controller gets no odometry | descends | 2
 TEST(Fault, WithOdometryThatStopsItLands) {
   FaultyFlight flight(on_the_way(ScenarioEventKind::odometry_stop));
   ASSERT_TRUE(flight.fly_into_event());
@@ -134,6 +145,7 @@ TEST(Fault, WithOdometryThatStopsItLands) {
   EXPECT_EQ(flight.collisions(), 0);
 }
 
+// Hazard: Surroundings | a wall stands in the way from one moment to the next | stops before it | 2
 TEST(Fault, AnObstacleThatComesIntoTheWayStopsIt) {
   FaultyFlight flight(wall_in_the_way());
   ASSERT_TRUE(flight.fly_into_event());

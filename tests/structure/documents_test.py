@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import subprocess
 import unittest
 
 import repository
@@ -13,7 +14,7 @@ MOST_LINE = 300
 MOST_TERMS = 30
 ROOM_LINES = range(5, 16)  # of a module's or process's README, after its title
 REFERENCES = {"channels.md", "contract.md"}  # looked up, not read
-GENERATED = {"results.md", "real.md"}  # their tables come from results.json and real.json
+GENERATED = {"results.md", "real.md", "safety.md"}  # their tables come from results.json, real.json and the tests
 ROOTS = ("configs", "docs", "examples", "flight", "lcmtypes", "modules", "scripts", "tests", "tools")
 SOURCES = (".h", ".cc", ".py", ".lcm", ".java", ".cmake", ".sed")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
@@ -80,6 +81,10 @@ class Documents(unittest.TestCase):
                 with self.subTest(page=repository.relative(page)):
                     text = [line for line in page.read_text().splitlines()[1:] if line]
                     self.assertIn(len(text), ROOM_LINES)
+
+    def test_hazards_are_those_of_the_tests(self):
+        run = subprocess.run([repository.ROOT / "scripts/evidence/hazards.py", "--check"], capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_terms_are_few(self):
         rows = re.findall(r"^\| .* \|$", (repository.ROOT / "docs/terms.md").read_text(), re.MULTILINE)
