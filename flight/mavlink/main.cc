@@ -2,6 +2,7 @@
 
 #include "flight/bus/presence.h"
 #include "flight/bus/priority.h"
+#include "flight/mavlink/check.h"
 #include "flight/mavlink/mavlink_process.h"
 #include "flight/process/configuration.h"
 #include "flight/process/process.h"
@@ -32,7 +33,7 @@ void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
   service.stopping();
 }
 
-int run(const ProcessOptions& options) {
+int bridge(const ProcessOptions& options) {
   const ProcessConfig config = read_configuration(options.configuration);
   Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-mavlink");
@@ -46,14 +47,36 @@ int run(const ProcessOptions& options) {
   return 0;
 }
 
+/// `saker-mavlink check`, which goes to the line instead of the bridge.
+void add_check(CLI::App& app, CLI::App*& check, CheckOptions& options) {
+  check = app.add_subcommand(
+      "check", "reads the autopilot's parameters that matter and says which differ, and why");
+  check->fallthrough();
+  check->add_option("--table", options.table, "of configs/autopilots; the autopilot's own")
+      ->type_name("FILE");
+  check->add_option("--latency-ms", options.latency_ms,
+                    "of odometry, as HEALTH of the bridge shows it in flight");
+  check->add_flag("--write", options.write, "writes what differs; needs --confirm");
+  check->add_option("--confirm", options.confirm, "write: the second word")->type_name("WORD");
+}
+
 }  // namespace
 }  // namespace saker::flight::mavlink
 
 int main(int argc, char** argv) {
+  namespace mavlink = saker::flight::mavlink;
+  CLI::App* check = nullptr;
+  mavlink::CheckOptions options;
   return saker::flight::run_program(
       {.name = "saker-mavlink",
        .does = "The bridge to PX4 and ArduPilot: the flight-controller interface of one robot as "
                "MAVLink 2.",
-       .run = saker::flight::mavlink::run},
+       .add_options = [&](CLI::App& app) { mavlink::add_check(app, check, options); },
+       .run =
+           [&](const saker::flight::ProcessOptions& common) {
+             if (!check->parsed()) return mavlink::bridge(common);
+             const auto config = saker::flight::read_configuration(common.configuration);
+             return mavlink::check_parameters(config.mavlink, options);
+           }},
       argc, argv);
 }

@@ -10,6 +10,7 @@
 #include "tools/sim/mavlink/craft.h"
 #include "tools/sim/mavlink/estimator.h"
 #include "tools/sim/mavlink/guided.h"
+#include "tools/sim/mavlink/parameters.h"
 #include "tools/sim/mavlink/quirks.h"
 #include "tools/sim/mavlink/streams.h"
 
@@ -18,8 +19,8 @@
 ///
 /// Reads bytes of the line and the state of the inner loops (`CraftState`); makes bytes and orders
 /// for the inner loops. It knows of no odometry but ODOMETRY. Times are the vehicle's clock; no
-/// socket, no clock of its own. Sources: the table of quirks (quirks.h). Left out: parameters,
-/// missions, signing, and that ArduPilot keeps its heading when that of our odometry is reset.
+/// socket, no clock of its own. Sources: the table of quirks (quirks.h). Left out: missions,
+/// signing, and that ArduPilot keeps its heading when that of our odometry is reset.
 namespace saker::tools {
 
 class SimulatedAutopilot {
@@ -68,6 +69,7 @@ class SimulatedAutopilot {
   void hear(const flight::mavlink::Frame& frame);
   void hear(const flight::mavlink::SetPositionTargetLocalNed& target);
   void hear_origin(const flight::mavlink::SetGpsGlobalOrigin& origin);
+  void hear_parameters(const flight::mavlink::Frame& frame);
   AckResult obey(const flight::mavlink::CommandLong& command);
   AckResult request_mode(std::uint32_t custom_mode);
   AckResult arm();
@@ -97,6 +99,7 @@ class SimulatedAutopilot {
   EstimatorModel estimator_{quirks_};
   Guided guided_{quirks_};
   Streams streams_{quirks_};
+  AutopilotParameters parameters_{quirks_.dialect.autopilot};
   flight::mavlink::FrameReader reader_;
   flight::mavlink::FrameWriter writer_{kSystem, kComponent};
   std::vector<flight::mavlink::FrameBytes> frames_;

@@ -103,7 +103,25 @@ void SimulatedAutopilot::hear(const Frame& frame) {
       return;
     }
     default:
-      return;
+      return hear_parameters(frame);
+  }
+}
+
+void SimulatedAutopilot::hear_parameters(const Frame& frame) {
+  using flight::mavlink::ParamRequestList, flight::mavlink::ParamRequestRead,
+      flight::mavlink::ParamSet;
+  if (frame.id == ParamRequestRead::kId) {
+    const auto request = decode<ParamRequestRead>(frame.bytes());
+    if (!for_it(request.target_system, request.target_component)) return;
+    if (const auto answer = parameters_.answer(request)) say(*answer);
+  } else if (frame.id == ParamSet::kId) {
+    const auto request = decode<ParamSet>(frame.bytes());
+    if (!for_it(request.target_system, request.target_component)) return;
+    if (const auto answer = parameters_.set(request)) say(*answer);
+  } else if (frame.id == ParamRequestList::kId) {
+    const auto request = decode<ParamRequestList>(frame.bytes());
+    if (!for_it(request.target_system, request.target_component)) return;
+    for (const auto& parameter : parameters_.all()) say(parameter);
   }
 }
 
