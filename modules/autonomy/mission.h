@@ -11,6 +11,8 @@
 #include "saker/autonomy/planning_report.h"
 #include "saker/autonomy/safety.h"
 #include "saker/core/config.h"
+#include "saker/core/short_list.h"
+#include "saker/core/text.h"
 #include "saker/core/vehicle.h"
 
 /// The mission's state machine, 50 Hz — reads what the other stages say (safety, planning, the
@@ -78,14 +80,17 @@ struct MissionEvent {
   MissionPhase from = MissionPhase::preflight;
   MissionPhase to = MissionPhase::preflight;  ///< the same as `from`: something to be said
   Cause cause = Cause::none;
-  std::string text;
+  core::Text text;
 };
+
+/// Of a step: more than commands that wait for one.
+using Acks = core::ShortList<CommandAck, 16>;
 
 struct MissionInput {
   Time now = 0;
   VehicleState vehicle;
   VehicleOdometry odometry;
-  std::vector<CommandAck> acks;   ///< since the last step
+  Acks acks;                      ///< since the last step
   std::vector<Finding> findings;  ///< of safety, on the ground
   SafetyDecision safety;          ///< in flight
   PlanningReport planning;        ///< the newest
@@ -110,7 +115,7 @@ class Mission {
     MissionOrders orders;
     std::optional<Command> command;  ///< to be sent now
     bool anchor = false;             ///< guidance is to begin here
-    std::vector<MissionEvent> events;
+    core::ShortList<MissionEvent, 8> events;
   };
   [[nodiscard]] Output step(const MissionInput& input);
 

@@ -8,6 +8,7 @@ namespace saker::autonomy {
 namespace {
 
 constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
+constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
 
 /// "no scan for 0.7 s" or "no scan yet".
 std::string silence_text(const char* what, Time last, Time now, double limit_s) {
@@ -26,7 +27,9 @@ const char* to_string(SafetyAction action) {
 }
 
 Safety::Safety(const SafetyConfig& config, const motion::Geofence& geofence)
-    : config_(core::checked(config, "safety")), geofence_(geofence) {}
+    : config_(core::checked(config, "safety")), geofence_(geofence) {
+  found_.reserve(32);  // more than there are
+}
 
 void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) const {
   const auto listen = [&](Cause cause, const char* what, Time last, double limit_s) {
@@ -42,6 +45,8 @@ void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) co
   if (in.planning_due) {
     listen(Cause::planning_stale, "plan", in.heard.planning, config_.planning_s);
   }
+  listen(Cause::guidance_silent, "run of guidance", in.heard.guidance, kGuidance_s);
+  listen(Cause::odometry_stale, "pose", in.odometry.stamp, config_.odometry_s);
 }
 
 void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
@@ -65,7 +70,8 @@ void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) co
 }
 
 void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) const {
-  const bool known = in.odometry.status != VehicleOdometryStatus::lost;
+  const bool known = in.odometry.status != VehicleOdometryStatus::lost &&
+                     age_s(in.odometry.stamp, in.now) <= config_.odometry_lost_s;
   if (!known || age_s(in.heard.odometry, in.now) > config_.odometry_lost_s) {
     found.push_back(
         {Cause::odometry_lost, SafetyAction::silence,
@@ -86,11 +92,15 @@ void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) cons
   }
 }
 
-std::vector<Finding> Safety::findings(const SafetyInput& input) const {
-  std::vector<Finding> found;
+void Safety::find(const SafetyInput& input, std::vector<Finding>& found) const {
   find_silence(input, found);
   find_vehicle(input, found);
   find_place(input, found);
+}
+
+std::vector<Finding> Safety::findings(const SafetyInput& input) const {
+  std::vector<Finding> found;
+  find(input, found);
   return found;
 }
 
@@ -108,8 +118,9 @@ SafetyDecision Safety::update(const SafetyInput& input) {
     held_for_ = {};
     return {};
   }
-  const std::vector<Finding> found = findings(input);
-  const SafetyDecision now = worst(found);
+  found_.clear();
+  find(input, found_);
+  const SafetyDecision now = worst(found_);
   if (now.action == SafetyAction::hold) {
     if (held_for_.action == SafetyAction::none) held_since_ = input.now;
     held_for_ = now;

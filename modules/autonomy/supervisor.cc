@@ -67,7 +67,8 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   }
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {
-    planning_since_ = 0;
+    // While it holds, an answer is still due: a hold for planning that hangs ends in a landing.
+    if (mission_.phase() != MissionPhase::hold) planning_since_ = 0;
   } else if (planning_since_ == 0) {
     planning_since_ = input.now;
   }
