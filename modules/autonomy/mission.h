@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "saker/autonomy/cause.h"
@@ -139,12 +138,12 @@ class Mission {
 
   void begin_hold(const SafetyDecision& safety);
   [[nodiscard]] std::optional<Cause> failed_command() const;
-  [[nodiscard]] std::string command_text() const;
+  [[nodiscard]] core::Text command_text() const;
 
   void fail(Cause cause);
-  void go(MissionPhase phase, Cause cause, std::string text);
-  void land(Cause cause, std::string text);
-  void say(Cause cause, std::string text);
+  void go(MissionPhase phase, Cause cause, core::Text text);
+  void land(Cause cause, core::Text text);
+  void say(Cause cause, core::Text text);
   [[nodiscard]] bool overdue(double seconds) const;
   [[nodiscard]] MissionOrders orders() const;
 

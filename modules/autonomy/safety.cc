@@ -1,7 +1,5 @@
 #include "saker/autonomy/safety.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace saker::autonomy {
@@ -11,10 +9,10 @@ constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
 constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
 
 /// "no scan for 0.7 s" or "no scan yet".
-std::string silence_text(const char* what, Time last, Time now, double limit_s) {
-  if (last == 0) return fmt::format("no {} yet", what);
-  return fmt::format("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
-                     limit_s);
+core::Text silence_text(const char* what, Time last, Time now, double limit_s) {
+  if (last == 0) return core::text("no {} yet", what);
+  return core::text("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
+                    limit_s);
 }
 
 double age_s(Time last, Time now) { return last == 0 ? kNeverSaidAfter_s : to_seconds(now - last); }
@@ -53,10 +51,10 @@ void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) co
   const double charge = in.vehicle.battery_share;
   if (charge < config_.battery_land_share) {
     found.push_back({Cause::battery_empty, SafetyAction::land,
-                     fmt::format("battery at {:.0f} %", 100 * charge)});
+                     core::text("battery at {:.0f} %", 100 * charge)});
   } else if (charge < config_.battery_return_share) {
     found.push_back({Cause::battery_low, SafetyAction::return_home,
-                     fmt::format("battery at {:.0f} %", 100 * charge)});
+                     core::text("battery at {:.0f} %", 100 * charge)});
   }
   if ((in.vehicle.faults & kCollision) != 0) {
     found.push_back({Cause::collision, SafetyAction::land, "the vehicle has hit something"});
@@ -80,14 +78,14 @@ void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) cons
   }
   if (!geofence_.contains(in.place)) {
     found.push_back({Cause::outside_geofence, SafetyAction::hold,
-                     fmt::format("({:.1f}, {:.1f}, {:.1f}) is outside the geofence", in.place.x(),
-                                 in.place.y(), in.place.z())});
+                     core::text("({:.1f}, {:.1f}, {:.1f}) is outside the geofence", in.place.x(),
+                                in.place.y(), in.place.z())});
   }
   if (in.flying && in.setpoint) {
     const double off = (in.setpoint->position - in.odometry.T_odom_body.translation()).norm();
     if (off > config_.off_course_m) {
       found.push_back(
-          {Cause::off_course, SafetyAction::hold, fmt::format("{:.1f} m off the setpoint", off)});
+          {Cause::off_course, SafetyAction::hold, core::text("{:.1f} m off the setpoint", off)});
     }
   }
 }
@@ -134,7 +132,7 @@ SafetyDecision Safety::update(const SafetyInput& input) {
   }
   if (input.now - held_since_ < from_seconds(config_.land_after_s)) return held_for_;
   return {SafetyAction::land, held_for_.cause,
-          fmt::format("{}; held for {:g} s", held_for_.text, config_.land_after_s)};
+          core::text("{}; held for {:g} s", held_for_.text, config_.land_after_s)};
 }
 
 }  // namespace saker::autonomy

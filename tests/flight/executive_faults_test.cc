@@ -2,7 +2,6 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <atomic>
 #include <map>
 #include <sstream>
@@ -52,9 +51,6 @@ class ExecutiveFaults : public testing::Test {
     log_.say(loops_, Loop::Steady::now() + later);
     return words_.str();
   }
-  static int lines(const std::string& words) {
-    return static_cast<int>(std::ranges::count(words, '\n'));
-  }
   std::map<std::string, long> counters() {
     const auto found = LoopFaultLog::counters(loops_, Loop::Steady::now());
     return {found.begin(), found.end()};
@@ -86,7 +82,7 @@ TEST_F(ExecutiveFaults, AnExceptionIsSaidOnceAndAgainAfterTenSecondsOrWhenItIsAn
   pass(milliseconds(50));
   EXPECT_NE(said().find("times so far: another"), std::string::npos);
   pass(milliseconds(50));
-  EXPECT_EQ(lines(said(seconds(11))), 1);
+  EXPECT_NE(said(seconds(11)).find("error planning threw, "), std::string::npos);
   EXPECT_GT(counters()["planning_threw"], 4);
 }
 
@@ -94,7 +90,7 @@ TEST_F(ExecutiveFaults, WhatIsSwitchedOffIsSaidAndCounted) {
   throws_ = true;
   pass(milliseconds(1200));
   EXPECT_NE(said().find("critical planning is switched off"), std::string::npos);
-  EXPECT_EQ(said(seconds(60)), "");
+  EXPECT_EQ(said(seconds(60)).find("threw"), std::string::npos);
   EXPECT_EQ(counters()["planning_threw"], 50);
   EXPECT_EQ(counters()["planning_off"], 1);
 }

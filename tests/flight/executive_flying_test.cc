@@ -202,7 +202,7 @@ TEST_F(ExecutiveGuidance, HoldsWhereSafetyDoesNotRun) {
   propose();
   follow(30);
   ASSERT_GT(speed(), 0.8);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 90; ++i) {
     clear();
     run();  // nobody orders any more
   }
