@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -225,9 +226,10 @@ void Executive::hand_over() {
   const auto flew = [](const auto& loop) {
     return loop->name() != "io" && loop->name() != "exchange";
   };
-  for (auto& loop : loops_) {
-    if (flew(loop)) loop->ask_to_stop();
-  }
+  for (auto& loop : loops_ | std::views::filter(flew)) loop->ask_to_stop();
+  const auto stopped = Loop::Steady::now() + kLongestEnd;
+  for (auto& loop : loops_ | std::views::filter(flew))
+    (void)loop->stop(std::max(Loop::Steady::duration::zero(), stopped - Loop::Steady::now()));
   const auto end =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(config_.exchange.landed_s);
   for (int look = 1; !exchange_->settled() && stop_requests() < 2; ++look) {
