@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
 #include <regex>
 
 #include "flight/bus/multicast.h"
@@ -103,8 +104,13 @@ void Bus::subscribe_raw(const std::string& suffix, RawHandler handler) {
 }
 
 bool Bus::publish_raw(const std::string& channel, Bytes bytes) {
-  return on(Network::control)
-             .publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) == 0;
+  return send(Network::control, channel.c_str(), bytes);
+}
+
+bool Bus::send(Network network, const char* channel, Bytes bytes) {
+  const std::lock_guard lock((*sending_)[network == Network::control ? 0 : 1]);
+  return lcm_publish(on(network).getUnderlyingLCM(), channel, bytes.data(),
+                     static_cast<unsigned int>(bytes.size())) == 0;
 }
 
 void Bus::on_message(const lcm::ReceiveBuffer* bytes, const std::string& channel,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "flight/bus/channels.h"
+#include "flight/bus/priority_mutex.h"
 #include "saker/core/config.h"
 
 namespace saker::flight {
@@ -74,7 +76,8 @@ class Bus {
   /// Bytes as they are: of every robot's channel that ends in `suffix` ("_STATE"), on control.
   void subscribe_raw(const std::string& suffix, RawHandler handler);
 
-  /// False when the network does not take it. Blocks no longer than the kernel's copy.
+  /// False when the network does not take it. Blocks no longer than the kernel's copy: its own, and
+  /// that of another thread, which has this one's priority meanwhile.
   template <class Message>
   bool publish(const Message& message) {
     return publish_as(robot_, message);
@@ -83,6 +86,10 @@ class Bus {
   template <class Message>
   bool publish_as(const std::string& robot, const Message& message);
   bool publish_raw(const std::string& channel, Bytes bytes);
+
+  /// Messages of up to so many bytes are published without allocating: what guidance and safety
+  /// say, and poses.
+  static constexpr std::size_t kSmall = 512;
 
   /// Waits up to `timeout` for the first message, then handles all that is there; how many. A
   /// negative number: the network is gone.
@@ -117,8 +124,13 @@ class Bus {
     return network == Network::control || !bulk_ ? *control_ : *bulk_;
   }
 
+  bool send(Network network, const char* channel, Bytes bytes);
+
   std::string robot_;
   std::unique_ptr<lcm::LCM> control_, bulk_;  // bulk_ is null in memory
+  // Of each network: LCM's own lock lends nobody its priority, so that one is taken before it.
+  std::unique_ptr<std::array<PriorityMutex, 2>> sending_ =
+      std::make_unique<std::array<PriorityMutex, 2>>();
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
 };
 
@@ -148,7 +160,13 @@ void Bus::subscribe_all(HandlerOfAll<Message> handler) {
 
 template <class Message>
 bool Bus::publish_as(const std::string& robot, const Message& message) {
-  return on(kChannel<Message>.network).publish(channel_name<Message>(robot), &message) == 0;
+  const auto size = static_cast<std::size_t>(message.getEncodedSize());
+  std::array<std::uint8_t, kSmall> small;
+  std::vector<std::uint8_t> large(size > kSmall ? size : 0);
+  std::uint8_t* const bytes = large.empty() ? small.data() : large.data();
+  if (message.encode(bytes, 0, static_cast<int>(size)) < 0) return false;
+  return send(kChannel<Message>.network, ChannelName(robot, kChannel<Message>.suffix).c_str(),
+              {bytes, size});
 }
 
 }  // namespace saker::flight

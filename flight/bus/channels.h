@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "saker/command_ack_t.hpp"
 #include "saker/command_t.hpp"
@@ -73,6 +75,20 @@ inline const std::string kAnyRobot = "[A-Z][A-Z0-9]{0,15}";
 [[nodiscard]] inline std::string robot_of(const std::string& channel) {
   return channel.substr(0, channel.find('_'));
 }
+
+/// A channel's name without memory of its own: "R1" and "_STATE" are "R1_STATE".
+class ChannelName {
+ public:
+  ChannelName(std::string_view robot, std::string_view suffix) {
+    std::size_t size = 0;
+    for (const std::string_view part : {robot, suffix})
+      size += part.copy(bytes_.data() + size, bytes_.size() - 1 - size);
+  }
+  [[nodiscard]] const char* c_str() const { return bytes_.data(); }
+
+ private:
+  std::array<char, 64> bytes_{};  // LCM takes 63
+};
 
 /// "R1", "_STATE" → "R1_STATE".
 template <class Message>

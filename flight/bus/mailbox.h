@@ -1,18 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "flight/bus/priority_mutex.h"
+
 /// What stands between two threads: a value of which only the newest counts, or a queue with a
-/// ceiling. The locks are held for a swap or a move, never while something is computed or freed.
+/// ceiling. The locks are held for a swap, a move or the copy of a small value, never while
+/// something is computed or freed, and lend their holder the priority of who waits.
 namespace saker::flight {
 
-/// The latest value. Any number of threads.
+/// The latest value, shared. Any number of threads.
 template <class T>
 class Mailbox {
  public:
@@ -36,49 +39,74 @@ class Mailbox {
   }
 
  private:
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   std::shared_ptr<const T> value_;
   bool fresh_ = false;
 };
 
+/// The latest value, by copy: for what guidance and safety read and write, which allocate and free
+/// nothing. A T that is small and has no memory of its own.
+template <class T>
+class ValueBox {
+ public:
+  void put(const T& value) {
+    const std::lock_guard lock(mutex_);
+    value_ = value;
+  }
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    value_.reset();
+  }
+
+  /// Nothing before the first one.
+  [[nodiscard]] std::optional<T> latest() const {
+    const std::lock_guard lock(mutex_);
+    return value_;
+  }
+
+ private:
+  mutable PriorityMutex mutex_;
+  std::optional<T> value_;
+};
+
 /// At most `capacity` values in the order in which they came; the oldest gives way and is counted.
+/// A ring that grows by doubling: once it has been as full as it gets, nothing is allocated.
 template <class T>
 class BoundedQueue {
  public:
-  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity > 0 ? capacity : 1) {}
+  explicit BoundedQueue(std::size_t capacity)
+      : capacity_(std::max<std::size_t>(capacity, 1)), slots_(std::min(capacity_, kFirst)) {}
 
   void push(T value) {
     std::optional<T> oldest;  // freed after the lock
     const std::lock_guard lock(mutex_);
-    if (values_.size() == capacity_) {
-      oldest.emplace(std::move(values_.front()));
-      values_.pop_front();
+    if (size_ == capacity_) {
+      oldest = take_first();
       ++dropped_;
     }
-    values_.push_back(std::move(value));
+    if (size_ == slots_.size()) grow();
+    slots_[(first_ + size_++) % slots_.size()].emplace(std::move(value));
   }
 
   [[nodiscard]] std::optional<T> pop() {
     const std::lock_guard lock(mutex_);
-    if (values_.empty()) return std::nullopt;
-    std::optional<T> value(std::move(values_.front()));
-    values_.pop_front();
-    return value;
+    return size_ == 0 ? std::nullopt : take_first();
   }
 
   /// All of them, oldest first.
   [[nodiscard]] std::vector<T> take_all() {
-    std::deque<T> values;
-    {
-      const std::lock_guard lock(mutex_);
-      values.swap(values_);
+    std::vector<T> values;
+    values.reserve(size());
+    for (auto value = pop(); value; value = pop()) {
+      values.push_back(std::move(*value));
+      if (values.size() == capacity_) break;  // who pushes as fast as this takes is not waited for
     }
-    return {std::make_move_iterator(values.begin()), std::make_move_iterator(values.end())};
+    return values;
   }
 
   [[nodiscard]] std::size_t size() const {
     const std::lock_guard lock(mutex_);
-    return values_.size();
+    return size_;
   }
   [[nodiscard]] long dropped() const {
     const std::lock_guard lock(mutex_);
@@ -86,9 +114,26 @@ class BoundedQueue {
   }
 
  private:
+  static constexpr std::size_t kFirst = 64;
+
+  [[nodiscard]] std::optional<T> take_first() {
+    std::optional<T> value = std::exchange(slots_[first_], std::nullopt);
+    first_ = (first_ + 1) % slots_.size();
+    --size_;
+    return value;
+  }
+  void grow() {
+    std::vector<std::optional<T>> more(std::min(capacity_, 2 * slots_.size()));
+    for (std::size_t i = 0; i < size_; ++i)
+      more[i] = std::move(slots_[(first_ + i) % slots_.size()]);
+    slots_.swap(more);
+    first_ = 0;
+  }
+
   const std::size_t capacity_;
-  mutable std::mutex mutex_;
-  std::deque<T> values_;
+  mutable PriorityMutex mutex_;
+  std::vector<std::optional<T>> slots_;
+  std::size_t first_ = 0, size_ = 0;
   long dropped_ = 0;
 };
 

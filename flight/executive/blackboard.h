@@ -24,17 +24,27 @@ struct PoseFix {
 struct Orders {
   autonomy::MissionOrders orders;
   int anchors = 0;  ///< counts how often guidance was to begin anew
+  Time stamp = 0;   ///< of the run of safety that ordered it
+};
+
+/// Of the newest map, what safety looks at.
+struct MapNews {
+  Time stamp = 0;
+  SE3 T_world_odom = SE3::Identity();
+  double classified_share = NAN;
 };
 
 /// All that stands between the loops of the executive: newest values, and queues with a ceiling.
+/// What guidance and safety touch is copied (ValueBox) or a number; other loops may share.
 struct Blackboard {
   SharedClock clock;
 
   // From the network.
-  Mailbox<VehicleState> vehicle;
+  ValueBox<VehicleState> vehicle;
   BoundedQueue<CommandAck> acks{64};
-  Mailbox<motion::Verdict> verdict;
+  ValueBox<motion::Verdict> verdict;
   Mailbox<occupancy::OccupancyGrid> grid;
+  std::atomic<Time> newest_grid = 0;
 
   // From the sensor: 2048 lidar packets are three seconds.
   BoundedQueue<std::vector<std::uint8_t>> packets{2048};
@@ -48,16 +58,18 @@ struct Blackboard {
   Mailbox<autonomy::IngestedScan> scan;
   BoundedQueue<detection::LabelledScan> labelled{32};
   Mailbox<autonomy::MapSnapshot> map;
-  Mailbox<VehicleOdometry> odometry;
+  ValueBox<MapNews> map_news;
+  ValueBox<VehicleOdometry> odometry;
 
   // Planning, guidance, safety.
   Mailbox<autonomy::Planning::Output> plan;
+  ValueBox<autonomy::PlanningReport> report;  // the plan's
   Mailbox<motion::Trajectory> committed;
-  Mailbox<Setpoint> setpoint;
-  Mailbox<autonomy::GuidanceStop> stop;
-  Mailbox<Orders> orders;
-  BoundedQueue<autonomy::MissionEvent> events{256};
-  std::atomic<bool> land_ordered = false;
+  ValueBox<Setpoint> setpoint;
+  ValueBox<autonomy::GuidanceStop> stop;
+  std::atomic<Time> guided = 0;  // the last run of guidance that ended
+  ValueBox<Orders> orders;
+  BoundedQueue<autonomy::MissionEvent> events{64};
   std::atomic<bool> mission_done = false;
 };
 

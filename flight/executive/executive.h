@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -10,8 +12,11 @@
 #include "flight/bus/presence.h"
 #include "flight/executive/blackboard.h"
 #include "flight/executive/flight_line.h"
+#include "flight/executive/guidance_loop.h"
 #include "flight/executive/loop.h"
+#include "flight/executive/loop_faults.h"
 #include "flight/executive/robot_exchange.h"
+#include "flight/executive/safety_loop.h"
 #include "flight/process/configuration.h"
 #include "flight/process/service.h"
 #include "saker/autonomy/body_pose.h"
@@ -25,7 +30,13 @@
 ///                └────▶ pose ◀──┘      LCM ─▶ io ─▶ safety (and mission) ───┘
 ///                                           └──▶ exchange ◀── mapping
 ///
-/// Loops meet on the blackboard only. Throws at set-up, never in a loop.
+/// Loops meet on the blackboard only. Throws at set-up; what a loop throws ends that run alone
+/// (loop.h). Guidance and safety decide over the vehicle and wait for no other loop: one that hangs
+/// or is switched off ends in what safety makes of the age of what it made, which is a hold, then
+/// a landing, and nothing for what only informs (exchange, this object's own thread, the log). The
+/// watchdog is fed by a thread of its own as long as safety runs, whoever else hangs. Guidance that
+/// hangs is no reason to starve it: the flight controller holds, then safety lands on odometry,
+/// which a restart would end.
 namespace saker::flight {
 
 struct ExecutiveInput {
@@ -43,24 +54,31 @@ class Executive {
   ~Executive();
 
   /// Until the mission is done, and a base in reach has what there is to tell. The first stop
-  /// request lands, the second one ends at once. Feeds the watchdog of `service` while no loop
-  /// hangs, and sets `mark` before it arms. \return whether the mission succeeded
+  /// request lands, the second one ends at once. Feeds the watchdog of `service`, which has to
+  /// outlive this, until this is destroyed, and sets `mark` before it arms.
+  /// \return whether the mission succeeded
   [[nodiscard]] bool run(Service& service, const FlightMark& mark);
 
   /// Map, trajectories and timings, as `saker replay` leaves them, and history.bin, what this
-  /// flight has to tell. After `run`.
+  /// flight has to tell. After `run`. What belongs to a loop that hangs is left out, with a line.
   void save(const std::filesystem::path& out);
   /// What this flight has to tell. After `run`.
   [[nodiscard]] slam::History history() const;
+  /// Whether every loop of these ended within `run`; of no names: of all. Where one did not, this
+  /// must not be destroyed: the process is to be left (_Exit).
+  [[nodiscard]] bool ended(std::initializer_list<const char*> names = {}) const;
 
  private:
   void make_loops();
   void subscribe();
-  [[nodiscard]] bool start_loops(Service& service);
-  [[nodiscard]] bool wait_for_sensor(Service& service);
-  void feed_watchdog(Service& service);
-  void hand_over(Service& service);
+  void start_watchdog(Service& service);
+  [[nodiscard]] bool start_loops();
+  [[nodiscard]] bool wait_for_sensor();
+  void look(Service& service, const FlightMark& mark, FlightLine& line, int look);
+  void guarded(const std::function<void()>& words);
+  void hand_over();
   void stop();
+  void save_flown(const std::filesystem::path& out) const;
 
   LoopStatus io();
   LoopStatus sensor();
@@ -71,13 +89,8 @@ class Executive {
   LoopStatus map();
   LoopStatus pose();
   LoopStatus plan();
-  LoopStatus guide();
-  void begin_anew();
-  void take_proposal(Time now);
   void send_trajectory(Time now);
-  LoopStatus supervise();
   LoopStatus exchange();
-  [[nodiscard]] autonomy::SupervisorInput seen(Time now);
 
   void publish_mission(const autonomy::MissionEvent* event);
   void publish_plan(const autonomy::Planning::Output& output);
@@ -120,24 +133,25 @@ class Executive {
   autonomy::BodyPose body_pose_;
   autonomy::Planning planning_;
   std::vector<std::pair<Time, active::Viewpoint>> viewpoints_;  // flown to, in their order
-  const bool has_targets_;
-  autonomy::Guidance guidance_;
-  int anchors_seen_ = 0;
+  std::shared_ptr<const autonomy::Planning::Output> newest_plan_, plan_before_;
+  GuidanceLoop guidance_;
   std::int64_t sent_trajectory_ = 0;
-  std::shared_ptr<const autonomy::Planning::Output> last_plan_;
   autonomy::Supervisor supervisor_;
-  int anchors_ = 0;
+  SafetyLoop safety_;
   std::chrono::steady_clock::time_point announced_;
 
   RobotExchange* exchange_;  // null: it tells nobody
   const std::vector<std::pair<std::string, long>> figures_;
 
-  std::string hanging_;  // the loop that was said to hang
+  LoopFaultLog faults_;
+  long main_threw_ = 0;
+  bool lands_alone_said_ = false;
   Time took_off_ = 0;
   autonomy::MissionEvent last_event_;
   autonomy::PlanningReport tour_report_;
   double ran_s_ = 0, ran_cpu_s_ = 0;          // what `run` took
   std::vector<std::unique_ptr<Loop>> loops_;  // last: their threads use what stands above
+  std::unique_ptr<Loop> watchdog_;
 };
 
 }  // namespace saker::flight

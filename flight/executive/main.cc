@@ -1,5 +1,7 @@
 #include <spdlog/spdlog.h>
 
+#include <cstdlib>
+
 #include "flight/bus/machine.h"
 #include "flight/command_line/output.h"
 #include "flight/executive/briefing.h"
@@ -18,12 +20,20 @@ struct FlightOptions {
   CommonOptions output;
 };
 
+/// A loop hangs, and with it what it uses: nothing is destroyed. All files are written.
+[[noreturn]] void leave(FlightMark& mark, int status) {
+  spdlog::critical("the process ends without the loops that hang");
+  spdlog::default_logger()->flush();
+  mark.clear();
+  std::_Exit(status);
+}
+
 int fly(const ProcessOptions& options, const FlightOptions& flight) {
   ProcessConfig config = read_configuration(options.configuration);
   config.autonomy = autonomy::within_geofence(std::move(config.autonomy));
   ExecutiveInput input{lidar::read_metadata(flight.metadata), {}};
   if (!flight.prior.empty()) input.prior = objects::read_map(flight.prior, config.autonomy.objects);
-  const FlightMark mark;
+  FlightMark mark;
   require_fit(check_machine(
       {.bus = config.bus, .lidar_ports = {input.sensor.lidar_port, input.sensor.imu_port}}));
   Bus bus(config.bus, options.robot);
@@ -48,8 +58,11 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   service.ready();
   const bool succeeded = executive.run(service, mark);
   executive.save(out.path());
-  if (briefing) briefing->debrief(executive.history(), out.path());
-  return succeeded ? 0 : 1;
+  if (briefing && executive.ended({"mapping", "exchange"}))
+    briefing->debrief(executive.history(), out.path());
+  const int status = succeeded ? 0 : 1;
+  if (!executive.ended()) leave(mark, status);
+  return status;
 }
 
 }  // namespace

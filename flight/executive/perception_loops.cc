@@ -94,6 +94,7 @@ LoopStatus Executive::map() {
   bus_.publish(to_lcm(map->detections));
   if (exchange_ != nullptr) exchange_->add(mapping_.slam().history());
   if (++map_cycles_ % kCyclesPerMap == 0) publish_map(*map);
+  board_.map_news.put({map->stamp, map->T_world_odom, map->classified_share});
   board_.map.put(std::move(map));
   return {age_ms(window.back().stamp), board_.labelled.dropped()};
 }

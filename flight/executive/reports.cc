@@ -97,15 +97,23 @@ void Executive::say_health() {
     if (const auto health = loop->health()) message.loops.push_back(*health);
   }
   message.num_loops = static_cast<std::int32_t>(message.loops.size());
-  message.counters = {counter("packets_dropped", board_.packets.dropped()),
-                      counter("imu_dropped", board_.imu.dropped()),
-                      counter("labelled_dropped", board_.labelled.dropped()),
-                      counter("events_dropped", board_.events.dropped())};
+  // Faults first: they are few, and where they are many the others give way.
+  for (const auto& [name, value] : LoopFaultLog::counters(loops_, Loop::Steady::now()))
+    message.counters.push_back(counter(name, value));
+  if (safety_.lands_alone()) message.counters.push_back(counter("safety_lands_alone", 1));
+  if (main_threw_ > 0) message.counters.push_back(counter("main_threw", main_threw_));
+  for (const counter_t& each : {counter("packets_dropped", board_.packets.dropped()),
+                                counter("imu_dropped", board_.imu.dropped()),
+                                counter("labelled_dropped", board_.labelled.dropped()),
+                                counter("events_dropped", board_.events.dropped())})
+    message.counters.push_back(each);
   if (exchange_ != nullptr) {
     for (const auto& [name, value] : exchange_->figures())
       message.counters.push_back(counter(name, value));
   }
   for (const auto& [name, value] : figures_) message.counters.push_back(counter(name, value));
+  if (message.counters.size() > health_t::MAX_COUNTERS)
+    message.counters.resize(health_t::MAX_COUNTERS);
   message.num_counters = static_cast<std::int32_t>(message.counters.size());
   bus_.publish(message);
 }
@@ -152,6 +160,7 @@ FlightStatus Executive::status() {
 
 void Executive::say_totals() const {
   for (const auto& loop : loops_) {
+    if (loop->running()) continue;  // it hangs, and was named
     const LoopMeter::Totals& totals = loop->totals();
     spdlog::info("{}: {} of {} runs late, at most {:.1f} ms; {:.3f} CPU seconds a second",
                  loop->name(), totals.misses, totals.runs, totals.worst_lateness_ms,
@@ -162,7 +171,9 @@ void Executive::say_totals() const {
 
 void Executive::save_loops(const std::filesystem::path& file) const {
   std::vector<LoopRow> rows;
-  for (const auto& loop : loops_) rows.push_back({loop->name(), loop->totals()});
+  for (const auto& loop : loops_) {
+    if (!loop->running()) rows.push_back({loop->name(), loop->totals()});
+  }
   write_loops(file, ran_s_, ran_cpu_s_, rows);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "flight/bus/priority_mutex.h"
 #include "saker/core/time.h"
 
 namespace saker::flight {
@@ -53,7 +54,7 @@ class SharedClock {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
   }
 
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   std::optional<Time> offset_;
   Time before_ = 0, window_ = 0;  // the best offsets of the last whole window and of this one
   Time window_begin_ = 0;

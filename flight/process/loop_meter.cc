@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "saker/core/statistics.h"
 
@@ -10,6 +11,7 @@ namespace saker::flight {
 namespace {
 
 constexpr std::size_t kMostRuns = 4096;  // of a period; those after it are not in the median
+constexpr std::size_t kRoom = 512;       // from the start: more than a second of the fastest loop
 
 double milliseconds(LoopMeter::Steady::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -36,21 +38,36 @@ void LoopMeter::began_late(Steady::duration lateness) {
   totals_.misses += late_ms > miss_ms_;
 }
 
-loop_health_t LoopMeter::take_period(Steady::duration period, double age_ms, long drops) {
-  const double seconds = std::max(1e-3, milliseconds(period) * 1e-3);
-  loop_health_t health{};
-  health.name = name_;
-  health.rate_hz = static_cast<float>(static_cast<double>(took_ms_.size()) / seconds);
-  health.misses = totals_.misses;
-  health.worst_lateness_ms = static_cast<float>(totals_.worst_lateness_ms);
-  health.age_ms = static_cast<float>(age_ms);
-  health.median_ms = static_cast<float>(core::median(took_ms_));
-  health.p95_ms = static_cast<float>(core::percentile(took_ms_, 0.95));
-  health.cpu = static_cast<float>(cpu_s_ / seconds);
-  health.drops = static_cast<std::int32_t>(drops);
+LoopMeter::Period::Period() { took_ms.reserve(kRoom); }
+
+void LoopMeter::end_period(Steady::duration period, double age_ms, long drops, Period& into) {
+  into.seconds = std::max(1e-3, milliseconds(period) * 1e-3);
+  into.cpu_s = std::exchange(cpu_s_, 0);
+  into.age_ms = age_ms;
+  into.drops = drops;
+  into.totals = totals_;
+  into.took_ms.swap(took_ms_);
   took_ms_.clear();
-  cpu_s_ = 0;
+}
+
+loop_health_t LoopMeter::health(const std::string& name, const Period& period) {
+  loop_health_t health{};
+  health.name = name;
+  health.rate_hz = static_cast<float>(static_cast<double>(period.took_ms.size()) / period.seconds);
+  health.misses = period.totals.misses;
+  health.worst_lateness_ms = static_cast<float>(period.totals.worst_lateness_ms);
+  health.age_ms = static_cast<float>(period.age_ms);
+  health.median_ms = static_cast<float>(core::median(period.took_ms));
+  health.p95_ms = static_cast<float>(core::percentile(period.took_ms, 0.95));
+  health.cpu = static_cast<float>(period.cpu_s / period.seconds);
+  health.drops = static_cast<std::int32_t>(period.drops);
   return health;
+}
+
+loop_health_t LoopMeter::take_period(Steady::duration period, double age_ms, long drops) {
+  Period ended;
+  end_period(period, age_ms, drops, ended);
+  return health(name_, ended);
 }
 
 }  // namespace saker::flight

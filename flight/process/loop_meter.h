@@ -16,7 +16,9 @@ class LoopMeter {
 
   /// \param miss_ms  a run that begins later than this after its deadline is a miss
   explicit LoopMeter(std::string name, double miss_ms = 5)
-      : name_(std::move(name)), miss_ms_(miss_ms) {}
+      : name_(std::move(name)), miss_ms_(miss_ms) {
+    took_ms_ = Period().took_ms;
+  }
 
   /// Since the start.
   struct Totals {
@@ -42,7 +44,23 @@ class LoopMeter {
   /// How long after its deadline a run began, where the loop has deadlines.
   void began_late(Steady::duration lateness);
 
-  /// What happened since the last call; counts are since the start.
+  /// What happened in a period; counts are since the start.
+  struct Period {
+    Period();  ///< with room for its runs
+    double seconds = 0, cpu_s = 0;
+    double age_ms = std::numeric_limits<double>::quiet_NaN();
+    long drops = 0;
+    Totals totals;
+    std::vector<double> took_ms;
+  };
+
+  /// Ends a period, for a loop that must not wait for memory: `into` gets it, and its memory is
+  /// used again.
+  void end_period(Steady::duration period, double age_ms, long drops, Period& into);
+  /// A period as `_HEALTH` has it; in any thread.
+  [[nodiscard]] static loop_health_t health(const std::string& name, const Period& period);
+
+  /// Both in one: what happened since the last call.
   /// \param age_ms of the newest input; NaN: nothing yet
   [[nodiscard]] loop_health_t take_period(Steady::duration period, double age_ms, long drops);
 

@@ -35,7 +35,9 @@ FlightMark::FlightMark() {
   file_ = file;
 }
 
-FlightMark::~FlightMark() {
+FlightMark::~FlightMark() { clear(); }
+
+void FlightMark::clear() {
   std::error_code ignored;
   if (!file_.empty()) std::filesystem::remove(file_, ignored);
 }

@@ -39,6 +39,9 @@ class FlightMark {
   FlightMark(const FlightMark&) = delete;
   FlightMark& operator=(const FlightMark&) = delete;
 
+  /// The flight ended, as the destructor says; for a process that ends without it.
+  void clear();
+
   /// A flight begins. False where it cannot be written down.
   [[nodiscard]] bool set() const;
 

@@ -14,6 +14,7 @@ const char* to_string(Cause cause) {
                                     "occupancy_stale",
                                     "mapping_stale",
                                     "planning_stale",
+                                    "guidance_silent",
                                     "outside_geofence",
                                     "battery_low",
                                     "battery_empty",

@@ -14,6 +14,7 @@ enum class Cause {
   occupancy_stale,     ///< no occupancy block
   mapping_stale,       ///< no map from SLAM
   planning_stale,      ///< no answer from planning
+  guidance_silent,     ///< guidance does not run
   outside_geofence,    ///< take-off place or vehicle
   battery_low,         ///< enough for the way back
   battery_empty,       ///< enough to land

@@ -1,11 +1,17 @@
 #include "saker/autonomy/command_sender.h"
 
 namespace saker::autonomy {
+namespace {
+
+constexpr std::size_t kLongestReason = 200;  // of COMMAND_ACK: room from the first command on
+
+}  // namespace
 
 void CommandSender::issue(CommandKind kind, double height_m, Time now) {
   command_ = {.stamp = now, .id = command_.id + 1, .kind = kind, .height_m = height_m};
   progress_ = CommandProgress::waiting;
   reason_.clear();
+  reason_.reserve(kLongestReason);
   issued_ = now;
   sent_ = 0;
 }

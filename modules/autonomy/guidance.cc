@@ -1,12 +1,14 @@
 #include "saker/autonomy/guidance.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace saker::autonomy {
 namespace {
+
+constexpr std::size_t kMostStates = 4096;  // as many as TRAJECTORY takes: 200 s at 20 Hz
 
 motion::MotionState at_rest(motion::MotionState state) {
   state.velocity.setZero();
@@ -28,33 +30,51 @@ const char* to_string(CommitStatus status) {
   return kNames[static_cast<int>(status)];
 }
 
-motion::Trajectory resting(Time start, const motion::MotionState& state) {
+motion::Trajectory resting(Time start, const motion::MotionState& state,
+                           std::vector<motion::MotionState> memory) {
   motion::Trajectory trajectory;
   trajectory.start = start;
   trajectory.step_s = 1;
-  trajectory.states = {at_rest(state)};
+  trajectory.states = std::move(memory);
+  trajectory.states.assign(1, at_rest(state));
   return trajectory;
 }
 
 motion::Trajectory spliced(const motion::Trajectory& first, const motion::Trajectory& second,
-                           Time now) {
+                           Time now, std::vector<motion::MotionState> memory) {
   const Time step = from_seconds(second.step_s);
   const Time lead = std::max<Time>(0, second.start - now);
   const Time steps = (lead + step - 1) / step;  // so that it begins at `now`, or just before
   motion::Trajectory result;
   result.step_s = second.step_s;
   result.start = second.start - steps * step;
+  memory.clear();
+  result.states = std::move(memory);
   result.states.reserve(static_cast<std::size_t>(steps) + second.states.size());
   for (Time i = 0; i < steps; ++i) result.states.push_back(first.sample(result.start + i * step));
   result.states.insert(result.states.end(), second.states.begin(), second.states.end());
   return result;
 }
 
-Guidance::Guidance(const GuidanceConfig& config) : config_(core::checked(config, "guidance")) {}
+Guidance::Guidance(const GuidanceConfig& config) : config_(core::checked(config, "guidance")) {
+  for (auto& trajectory : memory_) {
+    trajectory = std::make_shared<motion::Trajectory>();
+    trajectory->states.reserve(kMostStates);
+  }
+}
 
-void Guidance::replace(motion::Trajectory trajectory, Time now) {
-  trajectory.id = ++last_id_;
-  committed_ = std::make_shared<const motion::Trajectory>(std::move(trajectory));
+std::shared_ptr<motion::Trajectory> Guidance::unused() const {
+  for (const auto& trajectory : memory_) {
+    if (trajectory.use_count() != 1) continue;
+    std::atomic_thread_fence(std::memory_order_acquire);  // after the last reader let go of it
+    return trajectory;
+  }
+  return std::make_shared<motion::Trajectory>();  // others hold that many
+}
+
+void Guidance::replace(std::shared_ptr<motion::Trajectory> trajectory, Time now) {
+  trajectory->id = ++last_id_;
+  committed_ = std::move(trajectory);
   committed_at_ = now;
 }
 
@@ -62,7 +82,9 @@ void Guidance::anchor(Time now, const VehicleOdometry& odometry) {
   motion::MotionState state;
   state.position = odometry.T_odom_body.translation();
   state.yaw = core::yaw(odometry.T_odom_body.linear());
-  replace(resting(now, state), now);
+  auto trajectory = unused();
+  *trajectory = resting(now, state, std::move(trajectory->states));
+  replace(std::move(trajectory), now);
   stopping_ = false;
 }
 
@@ -70,19 +92,23 @@ CommitStatus Guidance::commit(const Proposal& proposal, Time now) {
   if (order_ != GuidanceOrder::follow || committed_ == nullptr) return CommitStatus::refused;
   if (proposal.from_id != committed_->id) return CommitStatus::other;
   if (proposal.trajectory.empty() || proposal.trajectory.start < now) return CommitStatus::late;
-  replace(spliced(*committed_, proposal.trajectory, now), now);
+  auto trajectory = unused();
+  *trajectory = spliced(*committed_, proposal.trajectory, now, std::move(trajectory->states));
+  replace(std::move(trajectory), now);
   stopping_ = false;
   return CommitStatus::committed;
 }
 
-void Guidance::stop(Time now, std::string reason) {
-  replace(motion::braked(*committed_, now, config_.braking), now);
+void Guidance::stop(Time now, const core::Text& reason) {
+  auto trajectory = unused();
+  *trajectory = motion::braked(*committed_, now, config_.braking, std::move(trajectory->states));
+  replace(std::move(trajectory), now);
   stopping_ = true;
   ++last_stop_.count;
-  last_stop_.reason = std::move(reason);
+  last_stop_.reason = reason;
 }
 
-std::optional<std::string> Guidance::reason_to_stop(
+std::optional<core::Text> Guidance::reason_to_stop(
     Time now, const std::optional<motion::Verdict>& verdict) const {
   const Time silence = from_seconds(config_.verdict_silence_s);
   if (!verdict || now - std::max(verdict->stamp, Time{0}) > silence) return "no verdict";
@@ -93,8 +119,8 @@ std::optional<std::string> Guidance::reason_to_stop(
   if (verdict->clear) return std::nullopt;
   const Time rest = motion::stands_at(*committed_, now, config_.braking);
   if (rest + from_seconds(config_.stop_margin_s) < verdict->clear_until) return std::nullopt;
-  return fmt::format("blocked at ({:.1f}, {:.1f}, {:.1f})", verdict->first_hit.x(),
-                     verdict->first_hit.y(), verdict->first_hit.z());
+  return core::text("blocked at ({:.1f}, {:.1f}, {:.1f})", verdict->first_hit.x(),
+                    verdict->first_hit.y(), verdict->first_hit.z());
 }
 
 std::optional<Setpoint> Guidance::update(Time now, GuidanceOrder order,
@@ -106,8 +132,8 @@ std::optional<Setpoint> Guidance::update(Time now, GuidanceOrder order,
   if (moving && !stopping_) {
     if (told_to_hold || order == GuidanceOrder::hold) {
       stop(now, "told to hold");
-    } else if (auto reason = reason_to_stop(now, verdict)) {
-      stop(now, std::move(*reason));
+    } else if (const auto reason = reason_to_stop(now, verdict)) {
+      stop(now, *reason);
     }
   }
   const motion::MotionState state = committed_->sample(now);

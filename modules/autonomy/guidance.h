@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "saker/core/config.h"
+#include "saker/core/text.h"
 #include "saker/core/vehicle.h"
 #include "saker/motion/braking.h"
 #include "saker/motion/trajectory.h"
@@ -15,8 +17,9 @@
 /// It alone owns the committed trajectory: planning proposes, guidance splices the proposal to what
 /// is being flown and gives it its number. It obeys the verdict: what is not clear is flown up to
 /// the braking distance before `clear_until`, and silence is a stop. A stop brakes along the
-/// trajectory, so that it stays where it was checked (motion/braking.h). Reads no clock; cost:
-/// microseconds, but for a splice or a stop.
+/// trajectory, so that it stays where it was checked (motion/braking.h). Reads no clock, and
+/// allocates nothing after its constructor: trajectories take turns in memory of its own, as long
+/// as others let go of old ones. Cost: microseconds, but for a splice or a stop.
 namespace saker::autonomy {
 
 struct GuidanceConfig {
@@ -53,8 +56,8 @@ struct Proposal {
 
 /// The last time that guidance stopped on the way: by the verdict, or told to.
 struct GuidanceStop {
-  int count = 0;       ///< of all stops so far
-  std::string reason;  ///< of the last one
+  int count = 0;      ///< of all stops so far
+  core::Text reason;  ///< of the last one
 };
 
 enum class CommitStatus {
@@ -88,12 +91,14 @@ class Guidance {
   [[nodiscard]] const GuidanceStop& last_stop() const { return last_stop_; }
 
  private:
-  void replace(motion::Trajectory trajectory, Time now);
-  void stop(Time now, std::string reason);
-  [[nodiscard]] std::optional<std::string> reason_to_stop(
+  [[nodiscard]] std::shared_ptr<motion::Trajectory> unused() const;
+  void replace(std::shared_ptr<motion::Trajectory> trajectory, Time now);
+  void stop(Time now, const core::Text& reason);
+  [[nodiscard]] std::optional<core::Text> reason_to_stop(
       Time now, const std::optional<motion::Verdict>& verdict) const;
 
   GuidanceConfig config_;
+  std::array<std::shared_ptr<motion::Trajectory>, 8> memory_;  // one that only this holds is free
   std::shared_ptr<const motion::Trajectory> committed_;
   std::int64_t last_id_ = 0;
   Time committed_at_ = 0;
@@ -103,10 +108,13 @@ class Guidance {
 };
 
 /// Stays at a pose: one state, at rest.
-[[nodiscard]] motion::Trajectory resting(Time start, const motion::MotionState& state);
+/// \param memory  for the states, as in motion::braked
+[[nodiscard]] motion::Trajectory resting(Time start, const motion::MotionState& state,
+                                         std::vector<motion::MotionState> memory = {});
 
 /// `first` up to the start of `second`, then `second`, on the second's steps.
 [[nodiscard]] motion::Trajectory spliced(const motion::Trajectory& first,
-                                         const motion::Trajectory& second, Time now);
+                                         const motion::Trajectory& second, Time now,
+                                         std::vector<motion::MotionState> memory = {});
 
 }  // namespace saker::autonomy

@@ -1,7 +1,5 @@
 #include "saker/autonomy/mission.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -23,11 +21,11 @@ bool Mission::flying() const {
 
 bool Mission::overdue(double seconds) const { return now_ - begun_ > from_seconds(seconds); }
 
-void Mission::say(Cause cause, std::string text) {
+void Mission::say(Cause cause, core::Text text) {
   out_.events.push_back({now_, phase_, phase_, cause, std::move(text)});
 }
 
-void Mission::go(MissionPhase phase, Cause cause, std::string text) {
+void Mission::go(MissionPhase phase, Cause cause, core::Text text) {
   out_.events.push_back({now_, phase_, phase, cause, std::move(text)});
   phase_ = phase;
   begun_ = now_;
@@ -38,7 +36,7 @@ void Mission::fail(Cause cause) {
   if (outcome_ == Cause::landed) outcome_ = cause;
 }
 
-void Mission::land(Cause cause, std::string text) {
+void Mission::land(Cause cause, core::Text text) {
   go(MissionPhase::landing, cause, std::move(text));
   if (!silent_) commands_.issue(CommandKind::land, NAN, now_);
 }
@@ -95,10 +93,10 @@ MissionOrders Mission::orders() const {
 }
 
 void Mission::preflight(const MissionInput& input) {
-  std::string faults;
+  core::Text faults;
   for (const Finding& finding : input.findings) {
     faults +=
-        fmt::format("{}{}: {}", faults.empty() ? "" : "; ", to_string(finding.cause), finding.text);
+        core::text("{}{}: {}", faults.empty() ? "" : "; ", to_string(finding.cause), finding.text);
   }
   const Cause first = input.findings.empty() ? Cause::ready : input.findings.front().cause;
   if (first != Cause::ready) clear_since_ = 0;
@@ -125,12 +123,12 @@ std::optional<Cause> Mission::failed_command() const {
   return std::nullopt;
 }
 
-std::string Mission::command_text() const {
+core::Text Mission::command_text() const {
   if (commands_.progress() == CommandProgress::expired) {
-    return fmt::format("{}: no answer for {:g} s", to_string(commands_.kind()),
-                       config_.command.deadline_s);
+    return core::text("{}: no answer for {:g} s", to_string(commands_.kind()),
+                      config_.command.deadline_s);
   }
-  return fmt::format("{}: {}", to_string(commands_.kind()), commands_.reason());
+  return core::text("{}: {}", to_string(commands_.kind()), commands_.reason());
 }
 
 void Mission::arming(const MissionInput& input) {
@@ -138,7 +136,7 @@ void Mission::arming(const MissionInput& input) {
     fail(*cause);
     go(MissionPhase::done, *cause, command_text());
   } else if (commands_.progress() == CommandProgress::accepted && input.vehicle.armed) {
-    go(MissionPhase::takeoff, Cause::armed, fmt::format("to {:g} m", config_.height_m));
+    go(MissionPhase::takeoff, Cause::armed, core::text("to {:g} m", config_.height_m));
     takeoff_floor_m_ = input.odometry.T_odom_body.translation().z();
     commands_.issue(CommandKind::takeoff, config_.height_m, now_);
   } else if (overdue(std::max(config_.takeoff_s, config_.command.deadline_s))) {
@@ -153,12 +151,12 @@ void Mission::takeoff(const MissionInput& input) {
     fail(*cause);
     land(*cause, command_text());
   } else if (height > config_.height_m - config_.height_tolerance_m) {
-    go(MissionPhase::tour, Cause::took_off, fmt::format("at {:.1f} m", height));
+    go(MissionPhase::tour, Cause::took_off, core::text("at {:.1f} m", height));
     out_.anchor = true;
   } else if (overdue(config_.takeoff_s)) {
     fail(Cause::takeoff_deadline);
     land(Cause::takeoff_deadline,
-         fmt::format("at {:.1f} m after {:g} s", height, config_.takeoff_s));
+         core::text("at {:.1f} m after {:g} s", height, config_.takeoff_s));
   }
 }
 
@@ -174,7 +172,7 @@ void Mission::tour(const MissionInput& input) {
   } else if (now_ - tour_begun_ > from_seconds(config_.tour_s)) {
     fail(Cause::tour_deadline);
     go(MissionPhase::return_home, Cause::tour_deadline,
-       fmt::format("{} of {} targets after {:g} s", plan.visited, plan.targets, config_.tour_s));
+       core::text("{} of {} targets after {:g} s", plan.visited, plan.targets, config_.tour_s));
   }
 }
 
@@ -188,7 +186,7 @@ void Mission::return_home(const MissionInput& input) {
     land(Cause::home_unreachable, "lands here: " + plan.text);
   } else if (now_ - return_begun_ > from_seconds(config_.return_s)) {
     fail(Cause::return_deadline);
-    land(Cause::return_deadline, fmt::format("not home after {:g} s", config_.return_s));
+    land(Cause::return_deadline, core::text("not home after {:g} s", config_.return_s));
   }
 }
 
@@ -234,7 +232,7 @@ void Mission::begin_hold(const SafetyDecision& safety) {
     land(safety.cause, safety.text);
   } else if (++holds_ > config_.most_holds) {
     fail(Cause::too_many_holds);
-    land(Cause::too_many_holds, fmt::format("{} holds; {}", holds_, safety.text));
+    land(Cause::too_many_holds, core::text("{} holds; {}", holds_, safety.text));
   } else {
     interrupted_ = phase_;
     hold_cause_ = safety.cause;
@@ -251,16 +249,16 @@ void Mission::say_stop(const GuidanceStop& stop) {
 void Mission::landing(const MissionInput& input) {
   const bool down = input.vehicle.stamp != 0 && !input.vehicle.armed;
   if (down) {
-    go(MissionPhase::done, Cause::landed, fmt::format("outcome: {}", to_string(outcome_)));
+    go(MissionPhase::done, Cause::landed, core::text("outcome: {}", to_string(outcome_)));
   } else if (now_ - input.plant_heard > from_seconds(config_.gone_s)) {
     fail(Cause::vehicle_silent);
     go(MissionPhase::done, Cause::vehicle_silent,
-       fmt::format("neither vehicle nor lidar for {:g} s: nothing is left to be flown; outcome: {}",
-                   config_.gone_s, to_string(outcome_)));
+       core::text("neither vehicle nor lidar for {:g} s: nothing is left to be flown; outcome: {}",
+                  config_.gone_s, to_string(outcome_)));
   } else if (overdue(config_.landing_s)) {
     fail(Cause::landing_deadline);
     say(Cause::landing_deadline,
-        fmt::format("still up after {:g} s; told to land again", config_.landing_s));
+        core::text("still up after {:g} s; told to land again", config_.landing_s));
     begun_ = now_;
     commands_.issue(CommandKind::land, NAN, now_);
   } else if (failed_command() && !silent_ && !land_refusal_said_) {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "saker/autonomy/cause.h"
@@ -11,6 +10,8 @@
 #include "saker/autonomy/planning_report.h"
 #include "saker/autonomy/safety.h"
 #include "saker/core/config.h"
+#include "saker/core/short_list.h"
+#include "saker/core/text.h"
 #include "saker/core/vehicle.h"
 
 /// The mission's state machine, 50 Hz — reads what the other stages say (safety, planning, the
@@ -78,14 +79,17 @@ struct MissionEvent {
   MissionPhase from = MissionPhase::preflight;
   MissionPhase to = MissionPhase::preflight;  ///< the same as `from`: something to be said
   Cause cause = Cause::none;
-  std::string text;
+  core::Text text;
 };
+
+/// Of a step: more than commands that wait for one.
+using Acks = core::ShortList<CommandAck, 16>;
 
 struct MissionInput {
   Time now = 0;
   VehicleState vehicle;
   VehicleOdometry odometry;
-  std::vector<CommandAck> acks;   ///< since the last step
+  Acks acks;                      ///< since the last step
   std::vector<Finding> findings;  ///< of safety, on the ground
   SafetyDecision safety;          ///< in flight
   PlanningReport planning;        ///< the newest
@@ -110,7 +114,7 @@ class Mission {
     MissionOrders orders;
     std::optional<Command> command;  ///< to be sent now
     bool anchor = false;             ///< guidance is to begin here
-    std::vector<MissionEvent> events;
+    core::ShortList<MissionEvent, 8> events;
   };
   [[nodiscard]] Output step(const MissionInput& input);
 
@@ -134,12 +138,12 @@ class Mission {
 
   void begin_hold(const SafetyDecision& safety);
   [[nodiscard]] std::optional<Cause> failed_command() const;
-  [[nodiscard]] std::string command_text() const;
+  [[nodiscard]] core::Text command_text() const;
 
   void fail(Cause cause);
-  void go(MissionPhase phase, Cause cause, std::string text);
-  void land(Cause cause, std::string text);
-  void say(Cause cause, std::string text);
+  void go(MissionPhase phase, Cause cause, core::Text text);
+  void land(Cause cause, core::Text text);
+  void say(Cause cause, core::Text text);
   [[nodiscard]] bool overdue(double seconds) const;
   [[nodiscard]] MissionOrders orders() const;
 

@@ -199,6 +199,7 @@ void MissionLockstep::take_plan(const Planning::Output& output, Time now) {
 void MissionLockstep::supervise(Time now) {
   SupervisorInput input;
   input.now = now;
+  heard_.guidance = now;
   input.heard = heard_;
   input.vehicle = vehicle_;
   input.odometry = odometry_;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
+#include "saker/core/text.h"
 #include "saker/core/time.h"
 
 namespace saker::autonomy {
@@ -42,7 +42,7 @@ struct PlanningReport {
   Time stamp = 0;  ///< 0: there has been none
   PlanningOrder order = PlanningOrder::none;
   PlanningStatus status = PlanningStatus::idle;
-  std::string text;
+  core::Text text;
   int target = -1;  ///< id of the target under way; −1: none
   int targets = 0;  ///< in all
   int visited = 0;

@@ -1,19 +1,18 @@
 #include "saker/autonomy/safety.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace saker::autonomy {
 namespace {
 
 constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
+constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
 
 /// "no scan for 0.7 s" or "no scan yet".
-std::string silence_text(const char* what, Time last, Time now, double limit_s) {
-  if (last == 0) return fmt::format("no {} yet", what);
-  return fmt::format("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
-                     limit_s);
+core::Text silence_text(const char* what, Time last, Time now, double limit_s) {
+  if (last == 0) return core::text("no {} yet", what);
+  return core::text("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
+                    limit_s);
 }
 
 double age_s(Time last, Time now) { return last == 0 ? kNeverSaidAfter_s : to_seconds(now - last); }
@@ -26,7 +25,9 @@ const char* to_string(SafetyAction action) {
 }
 
 Safety::Safety(const SafetyConfig& config, const motion::Geofence& geofence)
-    : config_(core::checked(config, "safety")), geofence_(geofence) {}
+    : config_(core::checked(config, "safety")), geofence_(geofence) {
+  found_.reserve(32);  // more than there are
+}
 
 void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) const {
   const auto listen = [&](Cause cause, const char* what, Time last, double limit_s) {
@@ -42,16 +43,18 @@ void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) co
   if (in.planning_due) {
     listen(Cause::planning_stale, "plan", in.heard.planning, config_.planning_s);
   }
+  listen(Cause::guidance_silent, "run of guidance", in.heard.guidance, kGuidance_s);
+  listen(Cause::odometry_stale, "pose", in.odometry.stamp, config_.odometry_s);
 }
 
 void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
   const double charge = in.vehicle.battery_share;
   if (charge < config_.battery_land_share) {
     found.push_back({Cause::battery_empty, SafetyAction::land,
-                     fmt::format("battery at {:.0f} %", 100 * charge)});
+                     core::text("battery at {:.0f} %", 100 * charge)});
   } else if (charge < config_.battery_return_share) {
     found.push_back({Cause::battery_low, SafetyAction::return_home,
-                     fmt::format("battery at {:.0f} %", 100 * charge)});
+                     core::text("battery at {:.0f} %", 100 * charge)});
   }
   if ((in.vehicle.faults & kCollision) != 0) {
     found.push_back({Cause::collision, SafetyAction::land, "the vehicle has hit something"});
@@ -65,7 +68,8 @@ void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) co
 }
 
 void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) const {
-  const bool known = in.odometry.status != VehicleOdometryStatus::lost;
+  const bool known = in.odometry.status != VehicleOdometryStatus::lost &&
+                     age_s(in.odometry.stamp, in.now) <= config_.odometry_lost_s;
   if (!known || age_s(in.heard.odometry, in.now) > config_.odometry_lost_s) {
     found.push_back(
         {Cause::odometry_lost, SafetyAction::silence,
@@ -74,23 +78,27 @@ void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) cons
   }
   if (!geofence_.contains(in.place)) {
     found.push_back({Cause::outside_geofence, SafetyAction::hold,
-                     fmt::format("({:.1f}, {:.1f}, {:.1f}) is outside the geofence", in.place.x(),
-                                 in.place.y(), in.place.z())});
+                     core::text("({:.1f}, {:.1f}, {:.1f}) is outside the geofence", in.place.x(),
+                                in.place.y(), in.place.z())});
   }
   if (in.flying && in.setpoint) {
     const double off = (in.setpoint->position - in.odometry.T_odom_body.translation()).norm();
     if (off > config_.off_course_m) {
       found.push_back(
-          {Cause::off_course, SafetyAction::hold, fmt::format("{:.1f} m off the setpoint", off)});
+          {Cause::off_course, SafetyAction::hold, core::text("{:.1f} m off the setpoint", off)});
     }
   }
 }
 
-std::vector<Finding> Safety::findings(const SafetyInput& input) const {
-  std::vector<Finding> found;
+void Safety::find(const SafetyInput& input, std::vector<Finding>& found) const {
   find_silence(input, found);
   find_vehicle(input, found);
   find_place(input, found);
+}
+
+std::vector<Finding> Safety::findings(const SafetyInput& input) const {
+  std::vector<Finding> found;
+  find(input, found);
   return found;
 }
 
@@ -108,8 +116,9 @@ SafetyDecision Safety::update(const SafetyInput& input) {
     held_for_ = {};
     return {};
   }
-  const std::vector<Finding> found = findings(input);
-  const SafetyDecision now = worst(found);
+  found_.clear();
+  find(input, found_);
+  const SafetyDecision now = worst(found_);
   if (now.action == SafetyAction::hold) {
     if (held_for_.action == SafetyAction::none) held_since_ = input.now;
     held_for_ = now;
@@ -123,7 +132,7 @@ SafetyDecision Safety::update(const SafetyInput& input) {
   }
   if (input.now - held_since_ < from_seconds(config_.land_after_s)) return held_for_;
   return {SafetyAction::land, held_for_.cause,
-          fmt::format("{}; held for {:g} s", held_for_.text, config_.land_after_s)};
+          core::text("{}; held for {:g} s", held_for_.text, config_.land_after_s)};
 }
 
 }  // namespace saker::autonomy

@@ -2,11 +2,11 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "saker/autonomy/cause.h"
 #include "saker/core/config.h"
+#include "saker/core/text.h"
 #include "saker/core/vehicle.h"
 #include "saker/motion/geofence.h"
 
@@ -17,7 +17,7 @@
 /// geofence, off course); land (what was held for did not come back, battery empty, collision);
 /// silence (odometry lost: a setpoint would be a guess, the flight controller descends on IMU and
 /// barometer). A hold ends when its causes have been gone for `recover_s`. Reads no clock; cost: a
-/// few comparisons.
+/// few comparisons, and in `update` no memory.
 namespace saker::autonomy {
 
 /// Stamps of the newest of everything that must not stop; 0: never came.
@@ -29,6 +29,7 @@ struct Heard {
   Time occupancy = 0;  ///< block
   Time mapping = 0;    ///< cycle of SLAM
   Time planning = 0;   ///< answer
+  Time guidance = 0;   ///< run of guidance that ended
 };
 
 struct SafetyConfig {
@@ -85,13 +86,13 @@ enum class SafetyAction { none, return_home, hold, land, silence };
 struct Finding {
   Cause cause = Cause::none;
   SafetyAction action = SafetyAction::none;  ///< what it calls for in flight
-  std::string text;                          ///< "no scan for 0.7 s, expected one every 0.5 s"
+  core::Text text;                           ///< "no scan for 0.7 s, expected one every 0.5 s"
 };
 
 struct SafetyDecision {
   SafetyAction action = SafetyAction::none;
   Cause cause = Cause::none;
-  std::string text;
+  core::Text text;
 };
 
 struct SafetyInput {
@@ -117,6 +118,7 @@ class Safety {
   [[nodiscard]] SafetyDecision update(const SafetyInput& input);
 
  private:
+  void find(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_silence(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_vehicle(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_place(const SafetyInput& input, std::vector<Finding>& found) const;
@@ -124,7 +126,8 @@ class Safety {
 
   SafetyConfig config_;
   motion::Geofence geofence_;
-  SafetyDecision held_for_;  // the hold under way
+  std::vector<Finding> found_;  // of this step; its memory is used again
+  SafetyDecision held_for_;     // the hold under way
   Time held_since_ = 0;
   Time last_cause_ = 0;  // when the hold's causes were last there
 };

@@ -1,7 +1,5 @@
 #include "saker/autonomy/supervisor.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -44,8 +42,8 @@ std::vector<Finding> Supervisor::on_the_ground(const SupervisorInput& input,
   if (labelled && !(input.classified_share >= least_classified_share_)) {
     found.push_back(
         {Cause::nothing_classified, SafetyAction::none,
-         fmt::format("segmentation gives {:.1f} % of the points a class, expected {:g} %",
-                     100 * input.classified_share, 100 * least_classified_share_)});
+         core::text("segmentation gives {:.1f} % of the points a class, expected {:g} %",
+                    100 * input.classified_share, 100 * least_classified_share_)});
   }
   return found;
 }
@@ -67,7 +65,8 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   }
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {
-    planning_since_ = 0;
+    // While it holds, an answer is still due: a hold for planning that hangs ends in a landing.
+    if (mission_.phase() != MissionPhase::hold) planning_since_ = 0;
   } else if (planning_since_ == 0) {
     planning_since_ = input.now;
   }

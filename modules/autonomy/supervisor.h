@@ -15,7 +15,7 @@ struct SupervisorInput {
   VehicleOdometry odometry;
   SE3 T_world_odom = SE3::Identity();
   std::optional<Setpoint> setpoint;  ///< the one that is flown
-  std::vector<CommandAck> acks;      ///< since the last step
+  Acks acks;                         ///< since the last step
   PlanningReport planning;           ///< the newest
   GuidanceStop stop;                 ///< the last one
   bool has_targets = false;          ///< or a geofence to sweep for them

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace saker::motion {
 namespace {
@@ -124,7 +125,8 @@ StopProfile::State StopProfile::at(double t) const {
   return state;
 }
 
-Trajectory braked(const Trajectory& trajectory, Time now, const BrakingConfig& config) {
+Trajectory braked(const Trajectory& trajectory, Time now, const BrakingConfig& config,
+                  std::vector<MotionState> memory) {
   const MotionState begin = trajectory.sample(now);
   const StopProfile profile = profile_of(begin, config);
   const TurnStop turn(begin, config);
@@ -133,6 +135,8 @@ Trajectory braked(const Trajectory& trajectory, Time now, const BrakingConfig& c
   Trajectory result;
   result.start = now;
   result.step_s = config.step_s;
+  memory.clear();
+  result.states = std::move(memory);
   const int steps = static_cast<int>(std::ceil(duration_s / config.step_s));
   for (int i = 0; i <= steps; ++i) {
     const double t = i * config.step_s;

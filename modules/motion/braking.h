@@ -61,8 +61,9 @@ class StopProfile {
 };
 
 /// The trajectory from `now` on, braked along itself until it stands.
-[[nodiscard]] Trajectory braked(const Trajectory& trajectory, Time now,
-                                const BrakingConfig& config);
+/// \param memory  for its states: where it has room for them, nothing is allocated
+[[nodiscard]] Trajectory braked(const Trajectory& trajectory, Time now, const BrakingConfig& config,
+                                std::vector<MotionState> memory = {});
 
 /// How far a stop that begins `now` would get: the trajectory's own time at its place of rest.
 [[nodiscard]] Time stands_at(const Trajectory& trajectory, Time now, const BrakingConfig& config);

@@ -110,7 +110,7 @@ void KinematicFlight::plan() {
 void KinematicFlight::supervise() {
   SupervisorInput input;
   input.now = now_;
-  input.heard = {now_, now_, now_, now_, now_, now_, std::max<Time>(report_.stamp, 1)};
+  input.heard = {now_, now_, now_, now_, now_, now_, std::max<Time>(report_.stamp, 1), now_};
   input.vehicle = vehicle_;
   input.odometry = odometry_;
   input.setpoint = setpoint_;

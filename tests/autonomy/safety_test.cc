@@ -11,11 +11,12 @@ constexpr Time kStep = kNanosecondsPerSecond / 50;
 SafetyInput good(Time now) {
   SafetyInput input;
   input.now = now;
-  input.heard = {now, now, now, now, now, now, now};
+  input.heard = {now, now, now, now, now, now, now, now};
   input.vehicle.stamp = now;
   input.vehicle.armed = true;
   input.vehicle.mode = VehicleMode::guided;
   input.vehicle.battery_share = 0.8;
+  input.odometry.stamp = now;
   input.odometry.status = VehicleOdometryStatus::ok;
   input.odometry.T_odom_body.translation() = Eigen::Vector3d(1, 2, 3);
   input.place = {1, 2, 3};
@@ -67,7 +68,8 @@ TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
                               {&Heard::verdict, Cause::checker_silent, config.verdict_s},
                               {&Heard::occupancy, Cause::occupancy_stale, config.occupancy_s},
                               {&Heard::mapping, Cause::mapping_stale, config.mapping_s},
-                              {&Heard::planning, Cause::planning_stale, config.planning_s}};
+                              {&Heard::planning, Cause::planning_stale, config.planning_s},
+                              {&Heard::guidance, Cause::guidance_silent, 0.5}};
   for (const Silence& silence : silences) {
     SCOPED_TRACE(to_string(silence.cause));
     Safety ladder(config, motion::Geofence(motion::GeofenceConfig{}));

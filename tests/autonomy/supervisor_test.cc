@@ -27,7 +27,9 @@ class SupervisorTest : public testing::Test {
                    .verdict = heard(Cause::checker_silent),
                    .occupancy = heard(Cause::occupancy_stale),
                    .mapping = heard(Cause::mapping_stale),
-                   .planning = heard(Cause::planning_stale)};
+                   .planning = heard(Cause::planning_stale),
+                   .guidance = heard(Cause::guidance_silent)};
+    input.odometry.stamp = pose_stands ? stopped_at : now;
     input.vehicle.armed = armed;
     input.vehicle.battery_share = 0.9;
     input.odometry.status = VehicleOdometryStatus::ok;
@@ -57,6 +59,7 @@ class SupervisorTest : public testing::Test {
                         motion::Geofence(motion::GeofenceConfig{})};
   Time now = kNanosecondsPerSecond, stopped_at = 0;
   Cause off = Cause::none;
+  bool pose_stands = false;
   double classified_share = 0.6;
   bool armed = false;
   double height = 0;
@@ -100,6 +103,47 @@ TEST_F(SupervisorTest, OdometryThatWasLostIsNotFlownByAgain) {
   run(SafetyConfig{}.recover_s + 5);
   EXPECT_EQ(phase(), MissionPhase::landing);
   EXPECT_EQ(orders, MissionOrders{});
+  EXPECT_EQ(supervisor.mission().outcome(), Cause::odometry_lost);
+}
+
+struct Stall {
+  Cause cause;
+  double limit_s;  ///< after which it holds
+};
+
+class AStageThatStallsForEver : public SupervisorTest, public testing::WithParamInterface<Stall> {};
+
+TEST_P(AStageThatStallsForEver, HoldsThenLands) {
+  run(5);
+  ASSERT_EQ(phase(), MissionPhase::tour);
+  off = GetParam().cause;
+  stopped_at = now;
+  run(GetParam().limit_s + 0.1);
+  ASSERT_EQ(phase(), MissionPhase::hold);
+  EXPECT_EQ(last.cause, GetParam().cause);
+  run(SafetyConfig{}.land_after_s - 0.3);
+  EXPECT_EQ(phase(), MissionPhase::hold);
+  run(0.4);
+  EXPECT_EQ(phase(), MissionPhase::landing);
+  EXPECT_EQ(last.cause, GetParam().cause);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, AStageThatStallsForEver,
+    testing::Values(Stall{Cause::checker_silent, 0.5}, Stall{Cause::occupancy_stale, 2},
+                    Stall{Cause::mapping_stale, 5}, Stall{Cause::planning_stale, 4},
+                    Stall{Cause::guidance_silent, 0.5}),
+    [](const auto& stall) { return std::string(to_string(stall.param.cause)); });
+
+TEST_F(SupervisorTest, APoseThatStandsStillIsNotFlownBy) {
+  run(5);
+  ASSERT_EQ(phase(), MissionPhase::tour);
+  pose_stands = true;
+  stopped_at = now;
+  run(SafetyConfig{}.odometry_s + 0.1);
+  EXPECT_EQ(phase(), MissionPhase::hold);
+  run(SafetyConfig{}.odometry_lost_s - SafetyConfig{}.odometry_s);
+  EXPECT_EQ(phase(), MissionPhase::landing);
   EXPECT_EQ(supervisor.mission().outcome(), Cause::odometry_lost);
 }
 
@@ -148,8 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Passing{Cause::vehicle_silent, 0.8}, Passing{Cause::lidar_silent, 0.8},
                     Passing{Cause::odometry_stale, 0.8}, Passing{Cause::checker_silent, 3},
                     Passing{Cause::occupancy_stale, 4}, Passing{Cause::mapping_stale, 7},
-                    Passing{Cause::planning_stale, 6}, Passing{Cause::outside_geofence, 1},
-                    Passing{Cause::off_course, 1}),
+                    Passing{Cause::planning_stale, 6}, Passing{Cause::guidance_silent, 1},
+                    Passing{Cause::outside_geofence, 1}, Passing{Cause::off_course, 1}),
     [](const auto& passing) { return std::string(to_string(passing.param.cause)); });
 
 }  // namespace

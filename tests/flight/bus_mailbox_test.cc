@@ -44,6 +44,28 @@ TEST(Mailbox, LetsGoOfAnOldValue) {
   EXPECT_TRUE(watched.expired());
 }
 
+TEST(ValueBox, HoldsACopyOfTheNewestValueUntilItIsCleared) {
+  ValueBox<int> box;
+  EXPECT_EQ(box.latest(), std::nullopt);
+  box.put(1);
+  box.put(2);
+  EXPECT_EQ(box.latest(), 2);
+  EXPECT_EQ(box.latest(), 2);
+  box.clear();
+  EXPECT_EQ(box.latest(), std::nullopt);
+}
+
+TEST(BoundedQueue, GrowsToItsCapacityInTheOrderOfItsValues) {
+  BoundedQueue<int> queue(300);
+  for (int value = 0; value < 40; ++value) queue.push(value);
+  for (int value = 0; value < 30; ++value) EXPECT_EQ(queue.pop(), value);  // it goes around
+  for (int value = 40; value < 400; ++value) queue.push(value);
+  const std::vector<int> values = queue.take_all();
+  ASSERT_EQ(values.size(), 300u);
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], static_cast<int>(i) + 100);
+  EXPECT_EQ(queue.dropped(), 70);
+}
+
 TEST(BoundedQueue, GivesValuesInTheirOrder) {
   BoundedQueue<int> queue(3);
   for (const int value : {1, 2, 3}) queue.push(value);

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <new>
+#include <stdexcept>
 #include <thread>
 
 #include "flight/executive/loop.h"
@@ -76,6 +78,68 @@ TEST(ExecutiveLoop, StopsWithoutHavingStarted) {
   Loop loop("test", 1, 0, [] { return LoopStatus{}; });
   loop.stop();
   EXPECT_EQ(loop.health(), nullptr);
+}
+
+TEST(ExecutiveLoop, ARunThatThrowsIsCountedAndTheNextOneBegins) {
+  std::atomic<int> runs = 0;
+  Loop loop("test", 100, 0, [&]() -> LoopStatus {
+    if (++runs % 2 == 0) throw std::bad_alloc();
+    return {};
+  });
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(300));
+  loop.stop();
+  EXPECT_GT(runs, 10);
+  EXPECT_EQ(loop.faults().throws, runs / 2);
+  EXPECT_EQ(loop.faults().last, "std::bad_alloc");
+  EXPECT_FALSE(loop.faults().off);
+}
+
+TEST(ExecutiveLoop, IsSwitchedOffAfterSoManyThrowsInARow) {
+  std::atomic<int> runs = 0;
+  Loop loop(
+      "test", 100, 0,
+      [&]() -> LoopStatus {
+        if (++runs != 2) throw std::runtime_error("broken");
+        return {};
+      },
+      3);
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(1300));
+  EXPECT_FALSE(loop.hangs(Loop::Steady::now()));  // it says that it is off, and lives
+  loop.stop();
+  EXPECT_EQ(runs, 5);  // a throw, one that was well, three in a row
+  EXPECT_EQ(loop.faults().throws, 4);
+  EXPECT_TRUE(loop.faults().off);
+  EXPECT_NE(loop.health(), nullptr);
+}
+
+TEST(ExecutiveLoop, WithoutALimitIsTriedForEverWhateverIsThrown) {
+  std::atomic<int> runs = 0;
+  Loop loop("test", 100, 0, [&]() -> LoopStatus { throw ++runs; });
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(300));
+  loop.stop();
+  EXPECT_GT(runs, 10);
+  EXPECT_EQ(loop.faults().throws, runs);
+  EXPECT_EQ(loop.faults().last, "no std::exception");
+}
+
+TEST(ExecutiveLoop, IsNotWaitedForLongerThanItIsGiven) {
+  std::atomic<bool> held = true;
+  Loop loop("test", 100, 0, [&] {
+    while (held) std::this_thread::sleep_for(milliseconds(1));
+    return LoopStatus{};
+  });
+  loop.start();
+  std::this_thread::sleep_for(milliseconds(50));
+  const auto begin = Loop::Steady::now();
+  EXPECT_FALSE(loop.stop(milliseconds(200)));
+  EXPECT_LT(Loop::Steady::now() - begin, milliseconds(2000));
+  EXPECT_TRUE(loop.running());
+  held = false;
+  EXPECT_TRUE(loop.stop());
+  EXPECT_FALSE(loop.running());
 }
 
 }  // namespace

@@ -38,8 +38,9 @@ class Row:
 class Flight:
     """Simulator, collision checker and executive; `end` them, whatever happens."""
 
-    def __init__(self, folder, event="", settings=(), prior=lambda objects: objects):
+    def __init__(self, folder, event="", settings=(), prior=lambda objects: objects, environment=None):
         self.folder, self.processes = pathlib.Path(folder), {}
+        self.environment = environment or {}  # of the executive, beside this one's
         scenario = self.folder / "scenario.yaml"
         scenario.write_text(SCENARIO.read_text() + (f"  events: [{event}]\n" if event else ""))
         self.site, self.out = self.folder / "simulator", self.folder / "executive"
@@ -58,9 +59,10 @@ class Flight:
         file.write_text(json.dumps(said | {"objects": prior(said["objects"])}))
 
     def start(self, name, *arguments):
+        more = self.environment if name == "saker-flight" else {}
         with open(self.folder / f"{name}.log", "w") as log:
             self.processes[name] = subprocess.Popen([BIN / name, *map(str, arguments)], stderr=log,
-                                                    stdin=subprocess.DEVNULL)
+                                                    stdin=subprocess.DEVNULL, env={**os.environ, **more})
 
     def log(self, name):
         return (self.folder / f"{name}.log").read_text()

@@ -12,7 +12,8 @@ constexpr std::size_t kMostCauses = 100;
 
 /// "no path: closed in by …" and all others of its kind.
 std::string cause_of(const autonomy::PlanningReport& report) {
-  const std::string what = report.text.substr(0, report.text.find(':'));
+  const std::string text = report.text;
+  const std::string what = text.substr(0, text.find(':'));
   return fmt::format("{}: {}", to_string(report.status), what);
 }
 
@@ -89,7 +90,7 @@ void MissionRecorder::on_event(const autonomy::MissionEvent& event) {
                      {"from", to_string(event.from)},
                      {"to", to_string(event.to)},
                      {"cause", to_string(event.cause)},
-                     {"text", event.text}});
+                     {"text", std::string(event.text)}});
 }
 
 std::vector<Eigen::Vector3d> MissionRecorder::cloud(const std::vector<SE3>& T_world_lidar) const {
