@@ -82,7 +82,7 @@ void MissionLockstep::step(Time now) {
 void MissionLockstep::receive(Time now) {
   for (const SensorPacket& packet : plant_.take_packets()) {
     for (const lidar::ImuSample& sample : lidar::decode_imu(packet.payload, sensor_)) {
-      body_pose_.add(sample);
+      body_pose_.add(sample, now);
     }
     ingestion_.add(packet.payload);
   }
