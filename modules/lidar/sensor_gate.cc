@@ -12,6 +12,7 @@ namespace {
 constexpr Time kStepSilence = 150'000'000;  // ns; what was known fits no longer
 constexpr Time kRestartSilence = kNanosecondsPerSecond;
 constexpr double kMostOvertaken_s = 0.03;
+constexpr double kMostDelay_s = 10;       // on the network, or of a sensor that falls behind
 constexpr double kMostOften = 2;          // times the lidar's rate
 constexpr double kMostSamples_hz = 1000;  // the fastest inertial unit has 640
 constexpr double kMostSamplesAtOnce = 400;
@@ -222,7 +223,9 @@ bool SensorGate::may_replace(const SensorIdentity& identity, Time arrival) const
 /// Stamps go on in the time that was flown by. Where columns say that no clock was set, what
 /// changed is how long packets are on their way.
 void SensorGate::take_up(const SensorCandidates::Candidate& candidate, Time arrival) {
+  const double change = to_seconds(candidate.offset) - to_seconds(line_.offset());
   const bool counted_on = agreed_ && candidate.identity == known_ && any_column_ &&
+                          std::abs(change) < kMostDelay_s &&
                           count_.agrees(last_column_, candidate.first_column);
   const Time before = correction_;
   if (agreed_ && !counted_on) correction_ += line_.offset() - candidate.offset;
