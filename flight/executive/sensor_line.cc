@@ -80,9 +80,7 @@ const char* short_name(GateCause cause) {
 
 SensorLine::SensorLine(const SensorLineConfig& config, const lidar::SensorInfo& info,
                        double turns_hz)
-    : info_(info),
-      format_(info),
-      gate_(info, {address_of(config), {}}),
+    : gate_(info, {address_of(config), {}}),
       ports_{Port{lidar::UdpReceiver(info.imu_port), SensorStream::imu,
                   budget_of(kImuPackets_hz, turns_hz)},
              Port{lidar::UdpReceiver(info.lidar_port), SensorStream::lidar,
@@ -111,7 +109,7 @@ void SensorLine::take(Port& port, const Sink& sink) {
         gate_.judge(datagram->payload, datagram->source, nanoseconds(datagram->arrival));
     if (!verdict.passes()) continue;
     Packet packet{{datagram->payload.begin(), datagram->payload.end()}, datagram->arrival};
-    lidar::add_to_stamps(packet.payload, verdict.correction, format_, info_);
+    gate_.correct(packet.payload, verdict);
     sink(std::move(packet));
   }
   ++cut_turns_;

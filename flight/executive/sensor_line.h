@@ -57,8 +57,6 @@ class SensorLine {
   void take(Port& port, const Sink& sink);
   void publish(Steady::time_point now);
 
-  lidar::SensorInfo info_;
-  lidar::PacketFormat format_;
   lidar::SensorGate gate_;
   std::array<Port, 2> ports_;  // the inertial unit's first: a scan wants the samples before it
   long cut_turns_ = 0;

@@ -85,6 +85,11 @@ class SensorGate {
   [[nodiscard]] GateVerdict judge(std::span<const std::uint8_t> payload, const UdpSource& from,
                                   Time arrival);
 
+  /// The packet that was judged last, with its stamps as they are to be flown by.
+  void correct(std::span<std::uint8_t> payload, const GateVerdict& verdict) const {
+    add_to_stamps(payload, verdict.correction, format_, info_);
+  }
+
   /// Only who is to be heard on the stream's port; address 0: everybody, since none is known, or
   /// the one that was is silent.
   [[nodiscard]] UdpSource source(SensorStream stream, Time arrival) const;
