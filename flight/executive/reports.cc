@@ -116,8 +116,9 @@ void Executive::say_health() {
   }
   for (const auto& [name, value] : figures_) message.counters.push_back(counter(name, value));
   if (const auto sensor = sensor_line_.figures()) {
-    const std::size_t room = health_t::MAX_COUNTERS - message.counters.size();
-    for (const auto& [name, value] : health_of(*sensor, room))
+    const int room =
+        std::max(0, health_t::MAX_COUNTERS - static_cast<int>(message.counters.size()));
+    for (const auto& [name, value] : health_of(*sensor, static_cast<std::size_t>(room)))
       message.counters.push_back(counter(name, value));
   }
   message.num_counters = static_cast<std::int32_t>(message.counters.size());

@@ -178,9 +178,9 @@ bool SensorGate::affordable(const ArrivedReading& packet) {
 void SensorGate::accept(const ArrivedReading& packet) {
   const SensorReading& reading = packet.reading;
   const bool lidar = reading.stream == SensorStream::lidar;
+  if (!reading.any) return;
   (lidar ? lidar_heard_ : imu_heard_) = packet.arrival;
   if (reading.sender && known_.sender == PacketSender{}) known_.sender = *reading.sender;
-  if (!reading.any) return;
   line_.follow(packet.offset(), packet.arrival);
   if (!lidar) {
     newest_imu_ = reading.newest + correction_;
