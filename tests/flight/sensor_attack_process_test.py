@@ -32,7 +32,8 @@ class SensorAttack(unittest.TestCase):
         self.addCleanup(attacker.kill)
         end = flight.wait_for_row(lambda row: row.t > begin.t + ATTACKED or not row.armed, 4 * ATTACKED, "flight")
         stops = [stop.group() for stop in STOPS.finditer(flight.log("saker-flight"))][quiet:]
-        print(f"{self._testMethodName}: {'flies' if end.flying and not end.landing else 'down'}, {stops}")
+        cpu = re.findall(r"([0-9.]+) CPU", flight.log("saker-flight"))
+        print(f"{self._testMethodName}: {'flies' if end.flying and not end.landing else 'down'}, {stops}, CPU {cpu}")
         self.assertEqual(end.collisions, 0, flight.logs())
         self.assertTrue(end.flying, flight.logs())
         if not may_hold:
