@@ -1,6 +1,6 @@
 #include "saker/lidar/udp_source.h"
 
-#include <arpa/inet.h>
+#include <charconv>
 
 namespace saker::lidar {
 
@@ -13,9 +13,18 @@ std::string to_string(const UdpSource& source) {
 }
 
 std::optional<std::uint32_t> parse_address(const std::string& dotted) {
-  in_addr address{};
-  if (::inet_pton(AF_INET, dotted.c_str(), &address) != 1) return std::nullopt;
-  return ntohl(address.s_addr);
+  const char* at = dotted.data();
+  const char* const end = at + dotted.size();
+  std::uint32_t address = 0;
+  for (int part = 0; part < 4; ++part) {
+    if (part > 0 && (at == end || *at++ != '.')) return std::nullopt;
+    unsigned value = 0;
+    const auto [rest, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || value > 255) return std::nullopt;
+    at = rest;
+    address = address << 8 | value;
+  }
+  return at == end ? std::optional(address) : std::nullopt;
 }
 
 }  // namespace saker::lidar

@@ -201,6 +201,14 @@ TEST_F(Gate, AnyBytesMayCome) {
   EXPECT_EQ(run(sensor, 1), 0);
 }
 
+TEST(UdpSource, IsReadAndWrittenWithDots) {
+  EXPECT_EQ(parse_address("192.168.7.2"), kAddress);
+  EXPECT_EQ(to_string(UdpSource{kAddress, 7502}), "192.168.7.2:7502");
+  for (const char* none :
+       {"", "192.168.7", "192.168.7.256", "192.168.7.2.1", "a.b.c.d", "1.2.3.-4"})
+    EXPECT_EQ(parse_address(none), std::nullopt) << none;
+}
+
 TEST(SensorReading, StampsAreCorrectedInEveryKindOfPacket) {
   for (const PacketProfile profile : {PacketProfile::kLegacy, PacketProfile::kRng15Rfl8Nir8,
                                       PacketProfile::kFusaRng15Rfl8Nir8Dual}) {
