@@ -17,7 +17,6 @@ namespace {
 // LCM drops the newest message of a full queue; `handle` drains, so that this many are a burst.
 constexpr int kQueueCapacity = 256;
 constexpr int kReceiverPriority = 52;  // of LCM's thread: above those who read what it copies
-constexpr int kMostAtOnce = 1024;  // of a network; then `handle` returns even if more keep coming
 
 void check_network(const std::string& url, int buffer_kb) {
   const MulticastGroup group = multicast_group(url);
@@ -47,13 +46,13 @@ std::unique_ptr<lcm::LCM> opened(const std::string& url, int buffer_kb) {
 }
 
 /// How many messages were handled; negative: the network is gone.
-int drain(lcm::LCM& network) {
-  for (int handled = 0; handled < kMostAtOnce; ++handled) {
+int drain(lcm::LCM& network, int most) {
+  for (int handled = 0; handled < most; ++handled) {
     const int status = network.handleTimeout(0);
     if (status < 0) return -1;
     if (status == 0) return handled;
   }
-  return kMostAtOnce;
+  return most;
 }
 
 const std::string& checked_name(const std::string& robot) {
@@ -125,7 +124,7 @@ void Bus::on_message(const lcm::ReceiveBuffer* bytes, const std::string& channel
   if (refused) ++subscription->refused;
 }
 
-int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout) {
+int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout, int most) {
   std::vector<lcm::LCM*> networks;
   std::vector<pollfd> ready;
   for (Bus* const bus : buses) {
@@ -140,7 +139,7 @@ int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds tim
   if (::poll(ready.data(), ready.size(), wait) <= 0) return 0;
   int handled = 0;
   for (lcm::LCM* const network : networks) {
-    const int count = drain(*network);
+    const int count = drain(*network, most);
     if (count < 0) return -1;
     handled += count;
   }

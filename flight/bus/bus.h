@@ -90,12 +90,16 @@ class Bus {
   /// Messages of up to so many bytes are published without allocating: what guidance and safety
   /// say, and poses.
   static constexpr std::size_t kSmall = 512;
+  static constexpr int kMostAtOnce = 1024;  ///< of a network
 
-  /// Waits up to `timeout` for the first message, then handles all that is there; how many. A
-  /// negative number: the network is gone.
-  int handle(std::chrono::milliseconds timeout) { return handle({this}, timeout); }
+  /// Waits up to `timeout` for the first message, then handles what is there, `most` of each
+  /// network; how many. A negative number: the network is gone.
+  int handle(std::chrono::milliseconds timeout, int most = kMostAtOnce) {
+    return handle({this}, timeout, most);
+  }
   /// The same for several at once, of which null ones are none.
-  static int handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout);
+  static int handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout,
+                    int most = kMostAtOnce);
 
   [[nodiscard]] const std::string& robot() const { return robot_; }
   /// One entry a subscription. To be called by any thread.

@@ -24,6 +24,7 @@ constexpr int kInvalid = 2;             // the process's status after an error
 constexpr milliseconds kLook{100};      // of the main thread at what the loops say
 constexpr int kLooksPerHealth = 10;     // 1 Hz
 constexpr int kHealthsPerProgress = 5;  // a line every 5 s
+constexpr double kSensorRate_hz = 200;
 // What flies comes first, what feeds it next; maps and plans take what is left.
 constexpr int kSafetyPriority = 70, kWatchdogPriority = 68, kGuidancePriority = 65,
               kPosePriority = 60, kSensorPriority = 55, kIoPriority = 50, kIngestionPriority = 20;
@@ -43,8 +44,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       bus_(bus),
       presence_(presence),
       timings_({"odometry", "segmentation", "mapping", "planning"}),
-      lidar_port_(input.sensor.lidar_port),
-      imu_port_(input.sensor.imu_port),
+      sensor_line_(config.sensor, input.sensor, kSensorRate_hz),
       ingestion_(config.autonomy.odometry, config.autonomy.standstill, input.sensor,
                  lidar::mount_pose(config.autonomy.mount)),
       segmentation_(config.autonomy.segmentation, config.autonomy.objects,
@@ -114,7 +114,7 @@ void Executive::make_loops() {
   };
   const autonomy::Config& config = config_.autonomy;
   add("io", 200, kIoPriority, [this] { return io(); });
-  add("sensor", 200, kSensorPriority, [this] { return sensor(); });
+  add("sensor", kSensorRate_hz, kSensorPriority, [this] { return sensor(); });
   add("ingestion", 50, kIngestionPriority, [this] { return ingest(); });
   add(
       "segmentation", config.rates.flight_segmentation_hz, 0, [this] { return segment(); },
@@ -138,8 +138,9 @@ bool Executive::wait_for_sensor() {
   while (board_.clock.now() == 0) {
     if (stop_requests() > 0) return false;
     if (std::chrono::steady_clock::now() > deadline) {
-      spdlog::error("lidar_silent: no packet on UDP ports {} and {} for {:g} s", sensor_.lidar_port,
-                    sensor_.imu_port, config_.autonomy.mission.preflight_s);
+      spdlog::error("lidar_silent: no packet of the sensor on UDP ports {} and {} for {:g} s",
+                    sensor_.lidar_port, sensor_.imu_port, config_.autonomy.mission.preflight_s);
+      say_sensor();
       return false;
     }
     std::this_thread::sleep_for(kLook);

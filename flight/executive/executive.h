@@ -17,12 +17,12 @@
 #include "flight/executive/loop_faults.h"
 #include "flight/executive/robot_exchange.h"
 #include "flight/executive/safety_loop.h"
+#include "flight/executive/sensor_line.h"
 #include "flight/process/configuration.h"
 #include "flight/process/service.h"
 #include "saker/autonomy/body_pose.h"
 #include "saker/autonomy/supervisor.h"
 #include "saker/core/timings.h"
-#include "saker/lidar/udp_receiver.h"
 
 /// The autonomy executive: the stages of `modules/autonomy` under real time, one thread a loop.
 ///
@@ -82,7 +82,7 @@ class Executive {
 
   LoopStatus io();
   LoopStatus sensor();
-  void take_packet(std::span<const std::uint8_t> payload);
+  void take_packet(SensorLine::Packet packet);
   LoopStatus ingest();
   void take_scan(autonomy::IngestedScan scan);
   LoopStatus segment();
@@ -96,6 +96,7 @@ class Executive {
   void publish_plan(const autonomy::Planning::Output& output);
   void publish_map(const autonomy::MapSnapshot& map);
   void say_events(const FlightMark& mark);
+  void say_sensor();
   void say_health();
   void say_progress(const Service& service);
   [[nodiscard]] FlightStatus status();
@@ -118,8 +119,8 @@ class Executive {
 
   // Each is used by its own loop alone.
   OccupancyJoiner grid_joiner_;
-  lidar::UdpReceiver lidar_port_;
-  lidar::UdpReceiver imu_port_;
+  SensorLine sensor_line_;
+  SensorNews sensor_news_;
   autonomy::Ingestion ingestion_;
   std::int32_t scan_sequence_ = 0;
   std::vector<ScanRow> rows_;
@@ -139,6 +140,7 @@ class Executive {
   autonomy::Supervisor supervisor_;
   SafetyLoop safety_;
   std::chrono::steady_clock::time_point announced_;
+  long io_cut_turns_ = 0;  // after which a network had more
 
   RobotExchange* exchange_;  // null: it tells nobody
   const std::vector<std::pair<std::string, long>> figures_;

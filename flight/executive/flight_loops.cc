@@ -15,11 +15,12 @@ constexpr std::size_t kMostViewpoints = 10000;  // of a flight: some tens
 }  // namespace
 
 LoopStatus Executive::pose() {
-  for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample);
+  const Time now = board_.clock.now();
+  for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample, now);
   for (const PoseFix& fix : board_.pose_fixes.take_all()) {
     body_pose_.correct(fix.stamp, fix.T_odom_lidar, fix.covariance);
   }
-  VehicleOdometry odometry = body_pose_.at(board_.clock.now());
+  VehicleOdometry odometry = body_pose_.at(now);
   bus_.publish(to_lcm(odometry));
   board_.odometry.put(odometry);
   send_trajectory(board_.clock.now());

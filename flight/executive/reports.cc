@@ -88,8 +88,17 @@ const autonomy::PlanningReport& Executive::tour_report() {
   return tour_report_;
 }
 
+/// Who is believed, and what was not.
+void Executive::say_sensor() {
+  const auto figures = sensor_line_.figures();
+  if (figures == nullptr) return;
+  for (const std::string& line : sensor_news_.lines(*figures, std::chrono::steady_clock::now()))
+    spdlog::warn(line);
+}
+
 void Executive::say_health() {
   publish_mission(nullptr);
+  say_sensor();
   health_t message{};
   message.utime = to_utime(board_.clock.now());
   message.process = "saker-flight";
@@ -114,6 +123,12 @@ void Executive::say_health() {
   for (const auto& [name, value] : figures_) message.counters.push_back(counter(name, value));
   if (message.counters.size() > health_t::MAX_COUNTERS)
     message.counters.resize(health_t::MAX_COUNTERS);
+  if (const auto sensor = sensor_line_.figures()) {
+    const int room =
+        std::max(0, health_t::MAX_COUNTERS - static_cast<int>(message.counters.size()));
+    for (const auto& [name, value] : health_of(*sensor, static_cast<std::size_t>(room)))
+      message.counters.push_back(counter(name, value));
+  }
   message.num_counters = static_cast<std::int32_t>(message.counters.size());
   bus_.publish(message);
 }

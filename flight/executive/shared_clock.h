@@ -15,7 +15,8 @@ namespace saker::flight {
 ///
 /// Of the stamps of the last one to two seconds the least late one counts, so that it follows a
 /// sensor whose clock runs otherwise or falls behind. It is flown by: it never jumps, but runs up
-/// to a tenth faster or slower until it is right. Only a clock that began anew is taken over.
+/// to a tenth faster or slower until it is right. Stamps are the gate's (sensor_gate.h), which go
+/// on where the sensor's clock stepped; one that is more than 10 s off is none of them.
 class SharedClock {
  public:
   using Steady = std::chrono::steady_clock;
@@ -24,11 +25,12 @@ class SharedClock {
     const Time at = nanoseconds(received);
     const Time offset = stamp - at;
     const std::lock_guard lock(mutex_);
-    if (!offset_ || offset < *offset_ - kRestart || offset > *offset_ + kRestart) {
+    if (!offset_) {
       offset_ = before_ = window_ = offset;
       window_begin_ = heard_ = at;
       return;
     }
+    if (offset < *offset_ - kMostOff || offset > *offset_ + kMostOff) return;
     if (at - window_begin_ > kWindow) {
       before_ = std::exchange(window_, offset);
       window_begin_ = at;
@@ -47,7 +49,7 @@ class SharedClock {
 
  private:
   static constexpr Time kWindow = kNanosecondsPerSecond;
-  static constexpr Time kRestart = 10 * kNanosecondsPerSecond;
+  static constexpr Time kMostOff = 10 * kNanosecondsPerSecond;
   static constexpr Time kSlowest = 10;  // one part in so many
 
   static Time nanoseconds(Steady::time_point time) {

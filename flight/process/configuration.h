@@ -41,11 +41,24 @@ struct ExchangeConfig {
   }
 };
 
+/// The sensor as this machine hears it: ports, serial number and mode are its metadata's.
+struct SensorLineConfig {
+  std::string address;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.setting("address", address, "",
+              "IPv4 address of the sensor: nothing else is heard on its ports; empty: of the first "
+              "one that fits its metadata.");
+  }
+};
+
 /// The whole configuration file: the autonomy's, the networks, the team's, the base station's, the
 /// bridge's to an autopilot and that of the fit of uncertainty models.
 struct ProcessConfig {
   autonomy::Config autonomy;
   BusConfig bus;
+  SensorLineConfig sensor;
   ExchangeConfig exchange;
   autonomy::TeamConfig team;
   BaseConfig base;
@@ -56,6 +69,7 @@ struct ProcessConfig {
   void visit(Visitor& v) {
     autonomy.visit(v);
     v.group("bus", bus, "LCM networks");
+    v.group("sensor", sensor, "the sensor's packets");
     v.group("exchange", exchange, "what robots and base station tell each other");
     v.group("team", team, "what a robot makes of what others mapped");
     v.group("base", base, "the base station, saker-base");

@@ -1,6 +1,7 @@
 #include "saker/autonomy/body_pose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace saker::autonomy {
@@ -9,7 +10,9 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr Time kMemory = 2 * kNanosecondsPerSecond;  // of samples: no scan comes so late
 constexpr double kLongestAhead_s = 0.05;  // of the newest sample; then it is taken to stay
-constexpr double kStartSpeed_mps = 1;     // sd at the first scan: on the ground, or in a hand
+constexpr double kMostAheadOfNow_s =
+    0.25;                              // a clock may lag while it follows packets that got faster
+constexpr double kStartSpeed_mps = 1;  // sd at the first scan: on the ground, or in a hand
 
 Matrix6d diagonal(double rotation_sd, double translation_sd) {
   Vector6d variance;
@@ -28,7 +31,8 @@ BodyPose::BodyPose(const BodyPoseConfig& config, const odometry::InertialConfig&
       scan_(inertial),
       newest_(inertial) {}
 
-void BodyPose::add(const lidar::ImuSample& sample) {
+void BodyPose::add(const lidar::ImuSample& sample, Time now) {
+  if (to_seconds(sample.stamp) - to_seconds(now) > kMostAheadOfNow_s) return;
   if (!sample.acceleration.allFinite() || !sample.angular_velocity.allFinite()) return;
   imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - kMemory));
   if (started_) newest_.propagate(sample);
@@ -79,7 +83,7 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.covariance = to_body * lidar.pose_covariance() * to_body.transpose();
   const double age = to_seconds(now - scan_.stamp());
   const double silent = to_seconds(now - newest);
-  const bool fresh = age <= config_.fresh_s && silent <= kLongestAhead_s;
+  const bool fresh = age <= config_.fresh_s && std::abs(silent) <= kLongestAhead_s;
   result.status = fresh                   ? VehicleOdometryStatus::ok
                   : age <= config_.lost_s ? VehicleOdometryStatus::predicted
                                           : VehicleOdometryStatus::lost;

@@ -47,15 +47,17 @@ class BodyPose {
   BodyPose(const BodyPoseConfig& config, const odometry::InertialConfig& inertial,
            const SE3& T_body_lidar);
 
-  /// A sample that is not newer than the last one, or not finite, is left out.
-  void add(const lidar::ImuSample& sample);
+  /// A sample that is not newer than the last one, not finite, or of 0.25 s after `now`, is left
+  /// out: it would shut out those that are due.
+  void add(const lidar::ImuSample& sample, Time now);
 
   /// The pose of a registered scan, not of a predicted one, with its covariance (right tangent).
   /// Older than the last one, or not finite: left out.
   void correct(Time stamp, const SE3& T_odom_lidar, const Matrix6d& covariance);
 
   /// At `now`, propagated from the newest sample with its reading, but by 0.05 s at most: then its
-  /// stamp stays too. Lost before the first scan.
+  /// stamp stays too. Not ok where the newest sample is that far ahead. Lost before the first
+  /// scan.
   [[nodiscard]] VehicleOdometry at(Time now) const;
 
  private:

@@ -24,6 +24,7 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       timings_(timings),
       plant_(plant),
       checker_(checker),
+      gate_(sensor, {.address = {}, .offset = Time{0}}),  // the plant's time is the sensor's
       ingestion_(config.odometry, config.standstill, sensor, lidar::mount_pose(config.mount)),
       body_pose_(config.body_pose, config.odometry.motion.inertial,
                  lidar::mount_pose(config.mount)),
@@ -80,9 +81,12 @@ void MissionLockstep::step(Time now) {
 }
 
 void MissionLockstep::receive(Time now) {
-  for (const SensorPacket& packet : plant_.take_packets()) {
+  for (SensorPacket& packet : plant_.take_packets()) {
+    const lidar::GateVerdict verdict = gate_.judge(packet.payload, {}, packet.received);
+    if (!verdict.passes()) continue;
+    gate_.correct(packet.payload, verdict);
     for (const lidar::ImuSample& sample : lidar::decode_imu(packet.payload, sensor_)) {
-      body_pose_.add(sample);
+      body_pose_.add(sample, now);
     }
     ingestion_.add(packet.payload);
   }

@@ -14,6 +14,7 @@
 #include "saker/autonomy/supervisor.h"
 #include "saker/autonomy/worker_pool.h"
 #include "saker/core/timings.h"
+#include "saker/lidar/sensor_gate.h"
 
 /// The lockstep driver of a flown mission: every loop of the executive on the plant's time, in a
 /// fixed order, each result as late as on the vehicle's computer (`latency`).
@@ -109,6 +110,7 @@ class MissionLockstep {
   SteppedChecker& checker_;
   MissionObserver* observer_ = nullptr;  // during a run
 
+  lidar::SensorGate gate_;
   Ingestion ingestion_;
   BodyPose body_pose_;
   MotionLog motion_log_;

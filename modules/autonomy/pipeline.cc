@@ -29,7 +29,7 @@ SE3 to_start_frame(const SE3& T_frame_body) {
 
 Ingestion::Ingestion(const odometry::OdometryConfig& config, const StandstillConfig& standstill,
                      const lidar::SensorInfo& info, const SE3& T_body_lidar)
-    : stream_(info),
+    : stream_(info, false, lidar::OusterStream::Stamps::go_on),
       standstill_(standstill),
       open_beams_(info),
       odometry_(config),

@@ -18,8 +18,8 @@ constexpr std::size_t kZonePacketBytes = 680;  // zone monitoring; told from oth
 
 }  // namespace
 
-OusterStream::OusterStream(const SensorInfo& info, bool keep_ranges)
-    : info_(info), format_(info), assembler_(info, keep_ranges), clock_(info) {}
+OusterStream::OusterStream(const SensorInfo& info, bool keep_ranges, Stamps stamps)
+    : info_(info), format_(info), assembler_(info, keep_ranges), clock_(info), stamps_(stamps) {}
 
 void OusterStream::add(std::span<const std::uint8_t> payload) {
   if (payload.size() == format_.packet_bytes()) return add_lidar(payload);
@@ -31,6 +31,7 @@ void OusterStream::add_lidar(std::span<const std::uint8_t> payload) {
   for (int i = format_.columns_per_packet() - 1; i >= 0; --i) {
     if (!format_.valid(payload, i)) continue;
     last_lidar_ = format_.time(payload, i);
+    if (stamps_ == Stamps::go_on) break;
     clock_.hear(format_.frame_id(payload, i), format_.measurement_id(payload, i), last_lidar_);
     break;
   }

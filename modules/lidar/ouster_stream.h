@@ -21,15 +21,18 @@ namespace saker::lidar {
 /// out are dropped and counted. Where the inertial unit's clock is seconds away from the lidar's,
 /// its samples get the time of the lidar packet that arrived before them instead; `imu_by_arrival`
 /// says so. Where the sensor's clock steps, stamps go on as if it had not (sensor_clock.h),
-/// counted.
+/// counted; live, that is the gate's (sensor_gate.h).
 class OusterStream {
  public:
+  enum class Stamps { may_step, go_on };
+
   struct Item {
     Frame frame;
     AssembledScan assembled;  ///< its `scan` is moved to the frame
   };
 
-  explicit OusterStream(const SensorInfo& info, bool keep_ranges = false);
+  explicit OusterStream(const SensorInfo& info, bool keep_ranges = false,
+                        Stamps stamps = Stamps::may_step);
 
   /// A UDP payload: any bytes are allowed.
   void add(std::span<const std::uint8_t> payload);
@@ -56,6 +59,7 @@ class OusterStream {
   PacketFormat format_;
   ScanAssembler assembler_;
   SensorClock clock_;
+  Stamps stamps_;
   // Packets that wait for the next one of the lidar, which tells whether the clock stepped.
   std::vector<std::vector<ImuSample>> imu_packets_;
   std::deque<ImuSample> imu_;  // by time; the oldest are dropped beyond the ceiling

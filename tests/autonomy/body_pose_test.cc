@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 
 #include "saker/core/error.h"
@@ -78,7 +79,7 @@ Errors fly(BodyPose& pose, const MadeSensors& sensors, double noise_m, double se
   Errors worst;
   std::deque<Time> scans;
   for (Time now = kImuStep; to_seconds(now) < end_s; now += kImuStep) {
-    pose.add(sensors.imu(now));
+    pose.add(sensors.imu(now), now);
     if (now % (10 * kImuStep) == 0 && to_seconds(now) < last_scan_s) scans.push_back(now);
     if (!scans.empty() && now - scans.front() >= 6 * kImuStep) {
       SE3 T = sensors.T_odom_lidar(to_seconds(scans.front()));
@@ -133,7 +134,8 @@ TEST(BodyPose, SaysHowOldItsScanIs) {
   const MadeSensors sensors(mount());
   (void)fly(pose, sensors, 0, 0, 2, 2.0);
   const Time last = from_seconds(1.9);
-  pose.add(sensors.imu(last + from_seconds(config.fresh_s)));
+  const Time fresh = last + from_seconds(config.fresh_s);
+  pose.add(sensors.imu(fresh), fresh);
   EXPECT_EQ(pose.at(last + from_seconds(config.fresh_s)).status, VehicleOdometryStatus::ok);
   EXPECT_EQ(pose.at(last + from_seconds(config.fresh_s + 0.02)).status,
             VehicleOdometryStatus::predicted);
@@ -170,10 +172,39 @@ TEST(BodyPose, AScanMillisecondsAfterTheLastOneTeachesNoWrongVelocity) {
   pose.correct(last, sensors.T_odom_lidar(to_seconds(last)), Matrix6d::Zero());
   pose.correct(short_after, T, Matrix6d::Zero());
   for (Time now = from_seconds(10) + kImuStep; to_seconds(now) <= 10.4; now += kImuStep)
-    pose.add(sensors.imu(now));
+    pose.add(sensors.imu(now), now);
   const VehicleOdometry odometry = pose.at(from_seconds(10.4));
   const SE3 error = MadeFlightPath::T_odom_body(10.4).inverse() * odometry.T_odom_body;
   EXPECT_LT(error.translation().norm(), 0.05);
+}
+
+// A forged stamp 5 s ahead carried the pose metres away, with good status, and shut out the samples
+// of those 5 s.
+TEST(BodyPose, ASampleFarAheadOfTimeIsLeftOut) {
+  BodyPose pose({}, {}, mount());
+  const MadeSensors sensors(mount());
+  (void)fly(pose, sensors, 0, 0, 10);
+  const Time now = from_seconds(10);
+  for (const Time stamp : {now + from_seconds(5), std::numeric_limits<Time>::max()}) {
+    lidar::ImuSample ahead = sensors.imu(now);
+    ahead.stamp = stamp;
+    pose.add(ahead, now);
+  }
+  pose.add(sensors.imu(now + kImuStep), now + kImuStep);
+  const VehicleOdometry odometry = pose.at(now + kImuStep);
+  EXPECT_EQ(odometry.status, VehicleOdometryStatus::ok);
+  const SE3 error = MadeFlightPath::T_odom_body(10.01).inverse() * odometry.T_odom_body;
+  EXPECT_LT(error.translation().norm(), 0.02);
+}
+
+TEST(BodyPose, IsNotOkAheadOfTime) {
+  BodyPose pose({}, {}, mount());
+  const MadeSensors sensors(mount());
+  (void)fly(pose, sensors, 0, 0, 10);
+  const Time now = from_seconds(10);
+  pose.add(sensors.imu(now + from_seconds(0.1)), now);
+  EXPECT_EQ(pose.at(now).status, VehicleOdometryStatus::predicted);
+  EXPECT_EQ(pose.at(now + from_seconds(0.1)).status, VehicleOdometryStatus::ok);
 }
 
 TEST(BodyPose, ItsCovarianceCoversWhatTheInertialUnitLosesInAGap) {
@@ -183,7 +214,7 @@ TEST(BodyPose, ItsCovarianceCoversWhatTheInertialUnitLosesInAGap) {
   (void)fly(pose, sensors, 0.01, 0, 10);
   const double sd_before = std::sqrt(pose.at(from_seconds(10)).covariance(3, 3));
   for (Time now = from_seconds(10) + kImuStep; to_seconds(now) <= 11; now += kImuStep)
-    pose.add(sensors.imu(now));
+    pose.add(sensors.imu(now), now);
   const VehicleOdometry odometry = pose.at(from_seconds(11));
   const Vector6d error =
       core::se3_log(odometry.T_odom_body.inverse() * MadeFlightPath::T_odom_body(11));
@@ -208,7 +239,7 @@ TEST(BodyPose, LeavesOutWhatIsNotFiniteOrOld) {
   pose.correct(20 * kImuStep, SE3::Identity(), Matrix6d::Zero());
   lidar::ImuSample broken;
   broken.stamp = 21 * kImuStep;
-  pose.add(broken);
+  pose.add(broken, broken.stamp);
   SE3 far = SE3::Identity();
   far.translation().x() = 100;
   pose.correct(10 * kImuStep, far, Matrix6d::Zero());

@@ -7,8 +7,11 @@
 #include "made_sensor.h"
 #include "md5.h"
 #include "paths.h"
+#include "saker/lidar/capture_reader.h"
 #include "saker/lidar/kitti_folder.h"
+#include "saker/lidar/metadata.h"
 #include "saker/lidar/ouster_capture.h"
+#include "saker/lidar/sensor_gate.h"
 
 namespace saker::lidar {
 namespace {
@@ -59,6 +62,25 @@ TEST(OusterData, RangesHaveTheVendorsDigests) {
     ++compared;
   }
   EXPECT_GE(compared, 5);
+}
+
+// Of what a real sensor sends nothing is refused, once it is known.
+TEST(OusterData, TheGateBelievesEveryPacketOfARealSensor) {
+  if (captures().empty()) GTEST_SKIP() << "no captures in " << kData;
+  long passed = 0;
+  for (const fs::path& file : captures()) {
+    SensorGate gate(read_metadata(find_metadata(file)));
+    CaptureReader reader(file);
+    long refused = 0;
+    while (const auto datagram = reader.next()) {
+      const UdpSource from{1, static_cast<std::uint16_t>(datagram->port)};  // a port each, as sent
+      const GateVerdict verdict = gate.judge(datagram->payload, from, datagram->captured);
+      passed += verdict.passes();
+      refused += !verdict.passes() && verdict.cause != GateCause::not_agreed;
+    }
+    EXPECT_EQ(refused, 0) << file;
+  }
+  EXPECT_GT(passed, 100);
 }
 
 TEST(OusterData, GravityPointsUpInTheSensorFrame) {

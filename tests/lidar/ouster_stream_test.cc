@@ -111,6 +111,18 @@ TEST(OusterStream, StampsGoOnWhereTheClockSteps) {
   }
 }
 
+// Live: the gate has put them back already, by the time of arrival.
+TEST(OusterStream, StampsThatGoOnAreLeftAsTheyAre) {
+  const Time step = from_seconds(20);
+  OusterStream stream(sensor(), false, OusterStream::Stamps::go_on);
+  add_stepping(stream, step);
+  EXPECT_EQ(stream.counters().clock_steps, 0);
+  std::optional<OusterStream::Item> last;
+  while (auto item = stream.take()) last = std::move(item);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->frame.scan.stamp, made_time(sensor(), 9, 511) + step);
+}
+
 TEST(OusterStream, WhatWasNotUsedIsToldInWords) {
   OusterStream stream(sensor());
   stream.add(testing::Bytes(17, 0));

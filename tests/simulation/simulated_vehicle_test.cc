@@ -7,6 +7,7 @@
 #include "pilot.h"
 #include "saker/core/error.h"
 #include "saker/lidar/ouster_stream.h"
+#include "saker/lidar/sensor_gate.h"
 
 namespace saker::simulation {
 namespace {
@@ -44,6 +45,24 @@ TEST(SimulatedVehicle, PacketsDecodeToScansWithTheirStampsAndSamples) {
   }
   EXPECT_EQ(scans, 9);
   EXPECT_EQ(stream.counters().summary(), "");
+}
+
+/// In lockstep the gate refuses nothing of the simulated sensor, and changes no stamp.
+TEST(SimulatedVehicle, ItsPacketsPassTheGateAsTheyAre) {
+  MissionConfig config = small_sensor();
+  config.capture.lost_share = config.capture.late_share = config.capture.repeated_share = 0.05;
+  SimulatedVehicle vehicle(config, 1);
+  lidar::SensorGate gate(vehicle.sensor(), {.address = {}, .offset = Time{0}});
+  const Time start = vehicle.now();
+  for (int i = 1; i <= 1000; ++i) {
+    vehicle.step_to(start + i * from_seconds(0.01));
+    for (const SensorDatagram& datagram : vehicle.take_packets()) {
+      const auto verdict = gate.judge(datagram.payload, {}, datagram.received);
+      ASSERT_EQ(verdict.cause, lidar::GateCause::none) << to_string(verdict.cause);
+      ASSERT_EQ(verdict.correction, 0);
+    }
+  }
+  EXPECT_GT(gate.figures().passed, 3000);
 }
 
 /// Points on the ground lie on the plane under the standing vehicle.

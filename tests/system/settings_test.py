@@ -31,6 +31,7 @@ WHO = {
     "mission": "pilot",
     "bus": "ground",
     "bus.receive_buffer_kb": "buyer",
+    "sensor": "mounter",
     "exchange": "ground",
     "exchange.link": "buyer",
     "team": "ground",
