@@ -33,6 +33,7 @@ struct Blackboard {
   // From the network.
   Mailbox<VehicleState> vehicle;
   BoundedQueue<CommandAck> acks{64};
+  BoundedQueue<autonomy::Order> operator_orders{16};
   Mailbox<motion::Verdict> verdict;
   Mailbox<occupancy::OccupancyGrid> grid;
 
@@ -56,6 +57,7 @@ struct Blackboard {
   Mailbox<Setpoint> setpoint;
   Mailbox<autonomy::GuidanceStop> stop;
   Mailbox<Orders> orders;
+  Mailbox<autonomy::OrderReply> order_reply;
   BoundedQueue<autonomy::MissionEvent> events{256};
   std::atomic<bool> land_ordered = false;
   std::atomic<bool> mission_done = false;

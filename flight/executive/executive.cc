@@ -49,6 +49,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                 config.autonomy.mission.height_m, uncertainty_),
       has_targets_(!planning_.active().idle()),
       guidance_(config.autonomy.guidance),
+      order_receiver_(config_.exchange, bus_, board_.operator_orders),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()),
       exchange_(input.exchange),
       figures_(input.figures) {

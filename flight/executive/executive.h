@@ -11,6 +11,7 @@
 #include "flight/executive/blackboard.h"
 #include "flight/executive/flight_line.h"
 #include "flight/executive/loop.h"
+#include "flight/executive/order_receiver.h"
 #include "flight/executive/robot_exchange.h"
 #include "flight/process/configuration.h"
 #include "flight/process/service.h"
@@ -125,6 +126,7 @@ class Executive {
   int anchors_seen_ = 0;
   std::int64_t sent_trajectory_ = 0;
   std::shared_ptr<const autonomy::Planning::Output> last_plan_;
+  OrderReceiver order_receiver_;
   autonomy::Supervisor supervisor_;
   int anchors_ = 0;
   std::chrono::steady_clock::time_point announced_;

@@ -118,6 +118,7 @@ autonomy::SupervisorInput Executive::seen(Time now) {
   input.acks = board_.acks.take_all();
   input.has_targets = has_targets_;
   input.land_ordered = board_.land_ordered;
+  input.orders = board_.operator_orders.take_all();
   return input;
 }
 
@@ -126,6 +127,7 @@ LoopStatus Executive::supervise() {
   if (output.command) bus_.publish(to_lcm(*output.command));
   anchors_ += output.anchor;
   board_.orders.put(Orders{output.orders, anchors_});
+  if (output.reply) board_.order_reply.put(*output.reply);
   for (const autonomy::MissionEvent& event : output.events) board_.events.push(event);
   board_.mission_done = supervisor_.mission().done();
   const auto vehicle = board_.vehicle.latest();
