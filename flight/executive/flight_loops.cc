@@ -118,7 +118,7 @@ autonomy::SupervisorInput Executive::seen(Time now) {
   input.acks = board_.acks.take_all();
   input.has_targets = has_targets_;
   input.land_ordered = board_.land_ordered;
-  input.orders = board_.operator_orders.take_all();
+  if (board_.operator_orders.size() > 0) input.orders = board_.operator_orders.take_all();
   return input;
 }
 

@@ -26,7 +26,7 @@ OrderReceiver::OrderReceiver(const ExchangeConfig& config, Bus& bus,
     opener_ = std::make_unique<exchange::Opener>(exchange::read_key(config.key_file), robot_,
                                                  fmt::format("/proc/self/fd/{}", memory_));
   } else {
-    spdlog::warn("no key of a team at {}: orders from the ground are refused, SIGTERM lands",
+    spdlog::info("no key of a team at {}: orders from the ground are refused, SIGTERM lands",
                  config.key_file);
   }
   bus.subscribe<order_t>([this](const order_t& message) { return hear(message); });

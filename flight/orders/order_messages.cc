@@ -61,7 +61,7 @@ OpenedOrder opened(exchange::Opener& opener, const std::string& robot, const ord
   const std::string_view bytes(reinterpret_cast<const char*>(message.data.data()),
                                message.data.size());
   exchange::Opened open = opener.open(channel_name<order_t>(robot), bytes);
-  OpenedOrder result{.verdict = verdict_of(open.verdict), .sender = std::move(open.sender)};
+  OpenedOrder result{verdict_of(open.verdict), std::move(open.sender), {}, 0};
   if (result.verdict != OrderVerdict::genuine) return result;
   exchange::ByteReader in(open.payload);
   const std::uint8_t version = in.byte();

@@ -144,18 +144,4 @@ const OrderReply& StandingOrders::keep(OrderReply reply) {
   return replies.emplace_back(std::move(reply));
 }
 
-std::string orders_table() {
-  std::string table = "| |";
-  for (const char* word : kWords) table += fmt::format(" {} |", word);
-  table += "\n|---|---|---|---|---|---|\n";
-  for (std::size_t s = 0; s < kSituations; ++s) {
-    table += fmt::format("| {} |", to_string(static_cast<Situation>(s)));
-    for (const OrderRule& rule : kTable[s]) {
-      table += fmt::format(" {}{} |", rule.act == refuse ? "refused: " : "", rule.text);
-    }
-    table += "\n";
-  }
-  return table;
-}
-
 }  // namespace saker::autonomy

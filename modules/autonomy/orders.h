@@ -125,7 +125,4 @@ struct StandingOrders {
   const OrderReply& keep(OrderReply reply);
 };
 
-/// The whole table as docs/flying.md has it, a row a situation.
-[[nodiscard]] std::string orders_table();
-
 }  // namespace saker::autonomy

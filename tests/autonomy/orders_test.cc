@@ -100,14 +100,6 @@ TEST(OrderTable, AnAbortNeverLeadsUpOrOn) {
   }
 }
 
-TEST(OrderTable, IsPrintedARowASituation) {
-  const std::string table = orders_table();
-  EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')),
-            kSituations + 2);
-  EXPECT_NE(table.find("| | hold | resume | return | land | abort |"), std::string::npos);
-  EXPECT_NE(table.find("| landing | refused: it lands"), std::string::npos);
-}
-
 TEST(OrderWords, AreThoseOfTheCommandLineAndNoOthers) {
   for (const char* word : {"hold", "resume", "return", "land", "abort"}) {
     const auto kind = order_kind_of(word);
