@@ -217,11 +217,14 @@ void Mission::hand_over() {
      "somebody else flies: nothing that moves is sent until an operator resumes");
 }
 
-/// Where the ladder would land or hold at once, who flies keeps it.
+/// Where the ladder would land or hold at once, who flies keeps it; a landing goes on unless the
+/// place is lost.
 void Mission::begin_take_back(const Order& order, const MissionInput& input) {
+  const bool lands = interrupted_ == MissionPhase::landing;
+  const SafetyAction least = lands ? SafetyAction::silence : SafetyAction::hold;
   const auto bars =
       std::find_if(input.findings.begin(), input.findings.end(),
-                   [](const Finding& finding) { return finding.action >= SafetyAction::hold; });
+                   [least](const Finding& finding) { return finding.action >= least; });
   if (flying() && bars != input.findings.end()) {
     reply(order, OrderState::refused, fmt::format("{}: {}", to_string(bars->cause), bars->text));
     return;

@@ -441,6 +441,7 @@ TEST_F(InFlight, APilotWhoTakesItInALandingGivesItBackIntoTheLanding) {
   order(OrderKind::land);
   run(0.5);
   take_over();
+  battery = 0.1;  // which is no reason to keep it from landing
   const long before = sent(CommandKind::land);
   order(OrderKind::resume);
   ASSERT_TRUE(run_to(MissionPhase::landing, 1));
