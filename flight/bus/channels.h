@@ -13,6 +13,7 @@
 #include "saker/object_map_t.hpp"
 #include "saker/occupancy_t.hpp"
 #include "saker/odometry_t.hpp"
+#include "saker/order_t.hpp"
 #include "saker/plan_t.hpp"
 #include "saker/presence_t.hpp"
 #include "saker/scan_t.hpp"
@@ -63,6 +64,8 @@ template <>
 inline constexpr Channel kChannel<mission_t> = {"_MISSION", Network::control};
 template <>
 inline constexpr Channel kChannel<health_t> = {"_HEALTH", Network::control};
+template <>
+inline constexpr Channel kChannel<order_t> = {"_ORDER", Network::control};
 template <>
 inline constexpr Channel kChannel<exchange_t> = {"_EXCHANGE", Network::control};
 template <>

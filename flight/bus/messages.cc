@@ -83,7 +83,7 @@ command_t to_lcm(const Command& command) {
 }
 
 std::optional<Command> from_lcm(const command_t& message) {
-  const auto kind = enumerator_of(message.kind, CommandKind::land);
+  const auto kind = enumerator_of(message.kind, CommandKind::resume);
   if (!kind || (*kind == CommandKind::takeoff && !(message.height_m > 0))) return std::nullopt;
   return Command{.stamp = from_utime(message.utime),
                  .id = message.id,

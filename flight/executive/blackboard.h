@@ -42,6 +42,7 @@ struct Blackboard {
   // From the network.
   ValueBox<VehicleState> vehicle;
   BoundedQueue<CommandAck> acks{64};
+  BoundedQueue<autonomy::Order> operator_orders{16};
   ValueBox<motion::Verdict> verdict;
   Mailbox<occupancy::OccupancyGrid> grid;
   std::atomic<Time> newest_grid = 0;
@@ -69,6 +70,7 @@ struct Blackboard {
   ValueBox<autonomy::GuidanceStop> stop;
   std::atomic<Time> guided = 0;  // the last run of guidance that ended
   ValueBox<Orders> orders;
+  Mailbox<autonomy::OrderReply> order_reply;
   BoundedQueue<autonomy::MissionEvent> events{64};
   std::atomic<bool> mission_done = false;
 };

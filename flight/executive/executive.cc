@@ -59,6 +59,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                 config.autonomy.motion, config.autonomy.objects, input.prior,
                 config.autonomy.mission.height_m, uncertainty_),
       guidance_(config.autonomy.guidance, board_, bus),
+      order_receiver_(config_.exchange, bus_, board_.operator_orders),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()),
       safety_(
           {.step = [this](autonomy::SupervisorInput in) { return supervisor_.step(std::move(in)); },

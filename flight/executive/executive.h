@@ -15,6 +15,7 @@
 #include "flight/executive/guidance_loop.h"
 #include "flight/executive/loop.h"
 #include "flight/executive/loop_faults.h"
+#include "flight/executive/order_receiver.h"
 #include "flight/executive/robot_exchange.h"
 #include "flight/executive/safety_loop.h"
 #include "flight/executive/sensor_line.h"
@@ -137,6 +138,7 @@ class Executive {
   std::shared_ptr<const autonomy::Planning::Output> newest_plan_, plan_before_;
   GuidanceLoop guidance_;
   std::int64_t sent_trajectory_ = 0;
+  OrderReceiver order_receiver_;
   autonomy::Supervisor supervisor_;
   SafetyLoop safety_;
   std::chrono::steady_clock::time_point announced_;

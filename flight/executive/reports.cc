@@ -45,6 +45,7 @@ void Executive::publish_mission(const autonomy::MissionEvent* event) {
   message.cause_code = static_cast<std::int32_t>(last_event_.cause);
   message.cause = shortened(fmt::format("{}: {}", to_string(last_event_.cause), last_event_.text),
                             mission_t::MAX_CAUSE);
+  if (const auto reply = board_.order_reply.latest()) write_reply(*reply, message);
   bus_.publish(message);
 }
 
@@ -79,6 +80,7 @@ void Executive::say_events(const FlightMark& mark) {
                  to_string(event.cause), event.text);
     publish_mission(&event);
   }
+  if (board_.order_reply.take() != nullptr) publish_mission(nullptr);
 }
 
 /// Of the tour, also when it is over.
@@ -97,6 +99,7 @@ void Executive::say_sensor() {
 }
 
 void Executive::say_health() {
+  for (const std::string& line : order_receiver_.take_lines()) spdlog::warn(line);
   publish_mission(nullptr);
   say_sensor();
   health_t message{};
@@ -114,7 +117,8 @@ void Executive::say_health() {
   for (const counter_t& each : {counter("packets_dropped", board_.packets.dropped()),
                                 counter("imu_dropped", board_.imu.dropped()),
                                 counter("labelled_dropped", board_.labelled.dropped()),
-                                counter("events_dropped", board_.events.dropped())})
+                                counter("events_dropped", board_.events.dropped()),
+                                counter("orders_refused", order_receiver_.refused())})
     message.counters.push_back(each);
   if (exchange_ != nullptr) {
     for (const auto& [name, value] : exchange_->figures())

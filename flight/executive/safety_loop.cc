@@ -58,6 +58,7 @@ autonomy::SupervisorInput SafetyLoop::seen(Time now) {
   while (auto ack = board_.acks.pop()) input.acks.push_back(std::move(*ack));
   input.has_targets = parts_.has_targets;
   input.land_ordered = parts_.land_ordered();
+  if (board_.operator_orders.size() > 0) input.orders = board_.operator_orders.take_all();
   return input;
 }
 
@@ -68,6 +69,7 @@ void SafetyLoop::obey(const autonomy::Mission::Output& output, Time now) {
   }
   anchors_ += output.anchor;
   board_.orders.put({output.orders, anchors_, now});
+  if (output.reply) board_.order_reply.put(*output.reply);
   for (const autonomy::MissionEvent& event : output.events) board_.events.push(event);
   board_.mission_done = parts_.mission_done();
 }

@@ -141,7 +141,9 @@ void Bridge::hear(const Command& command, Time now) {
   };
   if (!state_.connected(now))
     return refuse(state_.refusal().empty() ? "no autopilot is heard" : state_.refusal());
-  if (!authority_.ours()) return refuse(authority_.cause());
+  const bool resumes = command.kind == CommandKind::resume;
+  if (!resumes) resumed_ = 0;
+  if (!authority_.ours() && !resumes) return refuse(authority_.cause());
   if (command.id <= 0) return refuse("an order's id is 1 or more");
   const bool takeoff = command.kind == CommandKind::takeoff;
   if (takeoff && !(command.height_m > 0 && command.height_m < 1000))
@@ -166,12 +168,9 @@ void Bridge::hear(const Command& command, Time now) {
   }
   takeoff_.reset();
   takeoff_answer_.reset();
+  // Said once more after it was obeyed, it takes nothing from who took over meanwhile.
+  resume_ = resumes && command.id != resumed_ ? command.id : 0;
   commander_.begin(command.id, steps_of(command, dialect_), now);
-}
-
-void Bridge::operator_resumes() {
-  authority_.give_back();
-  cause_.clear();
 }
 
 void Bridge::step(Time now, SigningTime signing_now) {
@@ -296,9 +295,17 @@ std::vector<saker::CommandAck> Bridge::take_answers(Time now) {
   std::vector<saker::CommandAck> answers = std::exchange(direct_answers_, {});
   for (saker::CommandAck& answer : commander_.take_done(now)) {
     if (takeoff_ && answer.id == takeoff_->id) finish_takeoff(answer, now);
+    if (answer.accepted && answer.id == resume_) give_back();
     if (answer.id > 0) answers.push_back(std::move(answer));
   }
   return answers;
+}
+
+/// The autopilot holds, as an operator ordered: the executive flies again.
+void Bridge::give_back() {
+  authority_.give_back();
+  cause_.clear();
+  resumed_ = std::exchange(resume_, 0);
 }
 
 /// PX4 is in offboard mode: up, by setpoints.
@@ -361,6 +368,7 @@ std::optional<VehicleState> Bridge::vehicle_state(Time now) const {
   state.attitude = s.attitude;
   state.height_m = state_.height_m();
   state.battery_share = s.battery_share;
+  if (!authority_.ours()) state.faults |= kTakenOver;
   if (!odometry_.good(now)) state.faults |= kNoOdometry;
   if (s.estimator_flags && !state_.estimator_good()) state.faults |= kOdometryRejected;
   if (setpoints_.stopped()) state.faults |= kSetpointExpired;

@@ -42,8 +42,6 @@ class Bridge {
   void hear(const VehicleOdometry& odometry, Time now);
   void hear(const Setpoint& setpoint, Time now);
   void hear(const Command& command, Time now);
-  /// An operator's order to go on after somebody else flew.
-  void operator_resumes();
 
   /// Does what is due.
   void step(Time now, SigningTime signing_now);
@@ -82,6 +80,7 @@ class Bridge {
   void watch(Time now);
   void land(Time now, const std::string& cause);
   void begin_own(const ModeNumber& mode, Time now);
+  void give_back();
   void finish_takeoff(const saker::CommandAck& answer, Time now);
   [[nodiscard]] bool flying() const;
   [[nodiscard]] bool guided() const;
@@ -111,6 +110,7 @@ class Bridge {
   std::optional<saker::CommandAck>
       takeoff_answer_;                     // to the last one, told again where it is asked again
   std::optional<Time> stream_since_;       // setpoints go out before the mode
+  std::int64_t resume_ = 0, resumed_ = 0;  // ids of orders to give the vehicle back; 0: none
   std::int64_t own_id_ = 0;                // of our own orders, below zero
   std::optional<std::uint32_t> own_mode_;  // the last that we asked for by ourselves …
   Time own_again_ = 0;                     // … and may again

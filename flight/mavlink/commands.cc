@@ -58,6 +58,7 @@ std::vector<Step> steps_of(const Command& command, const Dialect& dialect) {
       if (!dialect.own_takeoff) return {mode_step(dialect.guided)};
       return {{kNavTakeoff, {0, 0, 0, 0, 0, 0, static_cast<float>(command.height_m)}}};
     case CommandKind::hold:
+    case CommandKind::resume:  // to where it stands; setpoints that come move it
       return {mode_step(dialect.hold)};
     case CommandKind::land:
       return {mode_step(dialect.land)};

@@ -20,6 +20,7 @@ struct ExchangeConfig {
   double call_s = 3;
   double hear_s = 20;
   double landed_s = 60;
+  double order_age_s = 2;
   exchange::PeerConfig link;
 
   template <class Visitor>
@@ -37,6 +38,10 @@ struct ExchangeConfig {
     v.setting("landed_s", landed_s, {0, 3600}, "s",
               "After landing a robot stays so long at most until a base in reach has all it has to "
               "tell.");
+    v.field(
+        "order_age_s", order_age_s, {0.1, 3600}, "s",
+        "of an operator's order when a robot hears it, by the system clocks of both: what somebody "
+        "held back is not obeyed later");
     v.group("link", link, "between a robot and the base station");
   }
 };

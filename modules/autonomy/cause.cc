@@ -42,8 +42,10 @@ const char* to_string(Cause cause) {
                                     "home_reached",
                                     "landed",
                                     "recovered",
-                                    "ordered"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(Cause::ordered) + 1);
+                                    "ordered",
+                                    "order_refused",
+                                    "taken_over"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Cause::taken_over) + 1);
   return kNames[static_cast<int>(cause)];
 }
 

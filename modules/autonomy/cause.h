@@ -46,6 +46,9 @@ enum class Cause {
   landed,
   recovered,
   ordered,  ///< by the operator, or a signal
+  // Others than the executive.
+  order_refused,  ///< what an operator ordered may not be now
+  taken_over,     ///< a pilot, or a failsafe of the autopilot, flies
 };
 
 /// One word, as MISSION shows it.

@@ -47,7 +47,7 @@ Mission::Output Mission::step(const MissionInput& input) {
   if (begun_ == 0) begun_ = now_;
   out_.command = commands_.step(now_, input.acks);
   say_stop(input.stop);
-  if (!flying() || !obey_safety(input)) {
+  if (!somebody_else_flies(input) && (!flying() || !obey_safety(input))) {
     switch (phase_) {
       case MissionPhase::preflight:
         preflight(input);
@@ -74,6 +74,7 @@ Mission::Output Mission::step(const MissionInput& input) {
         break;
     }
   }
+  obey_orders(input);
   if (!out_.command) out_.command = commands_.step(now_, {});  // one issued just now
   out_.orders = orders();
   return std::exchange(out_, {});
@@ -86,13 +87,15 @@ MissionOrders Mission::orders() const {
     case MissionPhase::return_home:
       return {GuidanceOrder::follow, PlanningOrder::home};
     case MissionPhase::hold:
-      return {GuidanceOrder::hold, PlanningOrder::none};
+      return {standing_.taken_over ? GuidanceOrder::silent : GuidanceOrder::hold,
+              PlanningOrder::none};
     default:
       return {};
   }
 }
 
 void Mission::preflight(const MissionInput& input) {
+  if (stays_on_the_ground(input)) return;
   core::Text faults;
   for (const Finding& finding : input.findings) {
     faults +=
@@ -151,8 +154,8 @@ void Mission::takeoff(const MissionInput& input) {
     fail(*cause);
     land(*cause, command_text());
   } else if (height > config_.height_m - config_.height_tolerance_m) {
-    go(MissionPhase::tour, Cause::took_off, core::text("at {:.1f} m", height));
     out_.anchor = true;
+    if (!holds_above()) go(MissionPhase::tour, Cause::took_off, core::text("at {:.1f} m", height));
   } else if (overdue(config_.takeoff_s)) {
     fail(Cause::takeoff_deadline);
     land(Cause::takeoff_deadline,
@@ -190,9 +193,9 @@ void Mission::return_home(const MissionInput& input) {
   }
 }
 
-/// Safety says when it ends.
+/// Safety says when it ends, or an order does.
 void Mission::hold(const MissionInput& input) {
-  if (input.safety.action == SafetyAction::hold) return;
+  if (input.safety.action == SafetyAction::hold || stays_held(input)) return;
   const bool home = input.safety.action == SafetyAction::return_home;
   if (home) fail(input.safety.cause);
   go(home ? MissionPhase::return_home : interrupted_, home ? input.safety.cause : Cause::recovered,

@@ -7,6 +7,7 @@
 #include "saker/autonomy/cause.h"
 #include "saker/autonomy/command_sender.h"
 #include "saker/autonomy/guidance.h"
+#include "saker/autonomy/orders.h"
 #include "saker/autonomy/planning_report.h"
 #include "saker/autonomy/safety.h"
 #include "saker/core/config.h"
@@ -25,7 +26,8 @@
 /// Every wait has a deadline, and what happens then only goes to the right: a mission ends. A hold
 /// goes back to what it interrupted, at most `most_holds` times. Landing alone has no way out but
 /// the ground, or that vehicle and lidar are gone: at each deadline the command is given again, and
-/// said so. Reads no clock.
+/// said so. An operator's orders act as orders.h has them; while a pilot flies the phase is hold.
+/// Reads no clock.
 namespace saker::autonomy {
 
 enum class MissionPhase { preflight, arming, takeoff, tour, return_home, hold, landing, done };
@@ -90,12 +92,13 @@ struct MissionInput {
   VehicleState vehicle;
   VehicleOdometry odometry;
   Acks acks;                      ///< since the last step
-  std::vector<Finding> findings;  ///< of safety, on the ground
+  std::vector<Finding> findings;  ///< of safety, on the ground and while somebody else flies
   SafetyDecision safety;          ///< in flight
   PlanningReport planning;        ///< the newest
   GuidanceStop stop;              ///< the last one
   Time plant_heard = 0;           ///< the newest state of the vehicle, or scan
-  bool land_ordered = false;      ///< by the operator, or a signal
+  bool land_ordered = false;      ///< by a signal
+  std::vector<Order> orders;      ///< of an operator, since the last step
 };
 
 /// What holds from one step to the next.
@@ -115,11 +118,14 @@ class Mission {
     std::optional<Command> command;  ///< to be sent now
     bool anchor = false;             ///< guidance is to begin here
     core::ShortList<MissionEvent, 8> events;
+    std::optional<OrderReply> reply;  ///< to an operator's order, where it is new or asked again
   };
   [[nodiscard]] Output step(const MissionInput& input);
 
   [[nodiscard]] MissionPhase phase() const { return phase_; }
   [[nodiscard]] bool flying() const;
+  /// A pilot, or a failsafe of the autopilot, flies: the ladder has no say.
+  [[nodiscard]] bool taken_over() const { return standing_.taken_over; }
   [[nodiscard]] bool done() const { return phase_ == MissionPhase::done; }
   /// Whether it went as it should: all targets that can be reached, home, landed there.
   [[nodiscard]] bool succeeded() const { return done() && outcome_ == Cause::landed; }
@@ -135,6 +141,23 @@ class Mission {
   void landing(const MissionInput& input);
   void say_stop(const GuidanceStop& stop);
   [[nodiscard]] bool obey_safety(const MissionInput& input);
+
+  // mission_orders.cc
+  [[nodiscard]] Situation situation(const MissionInput& input) const;
+  void obey_orders(const MissionInput& input);
+  void reply(const Order& order, OrderState state, std::string text);
+  void act(OrderAct act, const MissionInput& input);
+  void act_on_the_ground(OrderAct act, const MissionInput& input);
+  void recall(bool later);
+  [[nodiscard]] bool stays_on_the_ground(const MissionInput& input);
+  [[nodiscard]] bool holds_above();
+  [[nodiscard]] bool stays_held(const MissionInput& input);
+  void run_own_time();
+  [[nodiscard]] bool somebody_else_flies(const MissionInput& input);
+  void hand_over();
+  void begin_take_back(const Order& order, const MissionInput& input);
+  void follow_take_back(const MissionInput& input);
+  void regain();
 
   void begin_hold(const SafetyDecision& safety);
   [[nodiscard]] std::optional<Cause> failed_command() const;
@@ -164,6 +187,7 @@ class Mission {
   int stops_ = 0;        // of guidance, that were said
   bool silent_ = false;  // odometry is lost
   bool land_refusal_said_ = false;
+  StandingOrders standing_;
   Output out_;
 };
 

@@ -216,6 +216,7 @@ void MissionLockstep::supervise(Time now) {
   input.planning = report_;
   input.stop = guidance_.last_stop();
   input.has_targets = !planning_.active().idle();
+  input.orders = std::exchange(given_, {});
   const Mission::Output output = supervisor_.step(std::move(input));
 
   orders_ = output.orders;
@@ -226,6 +227,7 @@ void MissionLockstep::supervise(Time now) {
     result_.events.push_back(event);
     observer_->on_event(event);
   }
+  if (output.reply) observer_->on_reply(*output.reply);
   if (supervisor_.mission().done() && took_off_ != 0) {
     result_.flight_time_s = to_seconds(now - took_off_);
   }

@@ -37,6 +37,7 @@ class MissionObserver {
   virtual void on_map(const MapSnapshot& /*map*/) {}
   virtual void on_plan(const PlanningReport& /*report*/, const active::ActivePlan& /*plan*/) {}
   virtual void on_event(const MissionEvent& /*event*/) {}
+  virtual void on_reply(const OrderReply& /*reply*/) {}
   /// 50 Hz, in flight.
   virtual void on_setpoint(const Setpoint& /*setpoint*/, const VehicleOdometry& /*odometry*/) {}
 };
@@ -80,6 +81,10 @@ class MissionLockstep {
 
   /// Until it has landed, or for `limit_s` of the plant's time.
   [[nodiscard]] MissionResult run(double limit_s, MissionObserver& observer);
+
+  /// An operator's order, at any moment, also from inside the plant: heard at the next step of
+  /// safety.
+  void give(const Order& order) { given_.push_back(order); }
 
  private:
   using Labels = std::shared_future<std::shared_ptr<const lidar::Labels>>;
@@ -142,6 +147,7 @@ class MissionLockstep {
   std::optional<Setpoint> setpoint_;
   PlanningReport report_;
   MissionOrders orders_;
+  std::vector<Order> given_;  // by an operator
   std::int64_t sent_trajectory_ = 0;
   bool odd_tick_ = false;
   Time took_off_ = 0;

@@ -19,7 +19,7 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   result.vehicle = input.vehicle;
   result.odometry = input.odometry;
   result.setpoint = input.setpoint;
-  result.flying = mission_.flying();
+  result.flying = mission_.flying() && !mission_.taken_over();
   result.planning_due = planning_since_ != 0;
   result.heard.planning = std::max(result.heard.planning, planning_since_);
   result.place = input.T_world_odom * input.odometry.T_odom_body.translation();
@@ -35,6 +35,9 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
 std::vector<Finding> Supervisor::on_the_ground(const SupervisorInput& input,
                                                const SafetyInput& seen) const {
   std::vector<Finding> found = safety_.findings(seen);
+  if ((input.vehicle.faults & kTakenOver) != 0) {
+    found.push_back({Cause::taken_over, SafetyAction::none, "somebody else has it: resume"});
+  }
   if (!input.has_targets) {
     found.push_back({Cause::no_targets, SafetyAction::none, "no target to map"});
   }
@@ -59,9 +62,12 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.stop = std::move(input.stop);
   mission.plant_heard = std::max(input.heard.vehicle, input.heard.lidar);
   mission.land_ordered = input.land_ordered;
+  mission.orders = std::move(input.orders);
   mission.safety = safety_.update(seen);
   if (mission_.phase() == MissionPhase::preflight) {
     mission.findings = on_the_ground(input, seen);
+  } else if (mission_.taken_over()) {
+    mission.findings = safety_.findings(seen);
   }
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {

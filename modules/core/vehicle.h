@@ -32,6 +32,8 @@ enum VehicleFault : std::uint32_t {
   kSetpointExpired = 4,   ///< the last setpoint ran out
   kBatteryLow = 8,
   kCollision = 16,  ///< it has hit something
+  kTakenOver =
+      32,  ///< a pilot, or a failsafe of the autopilot, flies it: nothing of ours is obeyed
 };
 
 /// 50 Hz, flight controller → executive.
@@ -45,10 +47,17 @@ struct VehicleState {
   std::uint32_t faults = 0;    ///< VehicleFault bits
 };
 
-enum class CommandKind { arm, disarm, takeoff, hold, land };
+enum class CommandKind {
+  arm,
+  disarm,
+  takeoff,
+  hold,
+  land,
+  resume,  ///< an operator gives the vehicle back to us after somebody else flew it
+};
 
 [[nodiscard]] inline const char* to_string(CommandKind kind) {
-  constexpr const char* kNames[] = {"arm", "disarm", "takeoff", "hold", "land"};
+  constexpr const char* kNames[] = {"arm", "disarm", "takeoff", "hold", "land", "resume"};
   return kNames[static_cast<int>(kind)];
 }
 

@@ -35,11 +35,13 @@ bool is_calm(const RecordedPlant::Row& row) {
 /// Keeps what happened over several slices of one run.
 class Listener : public MissionObserver {
  public:
-  explicit Listener(std::vector<MissionEvent>& events) : events_(events) {}
+  Listener(std::vector<MissionEvent>& events, OrderReply& reply) : events_(events), reply_(reply) {}
   void on_event(const MissionEvent& event) override { events_.push_back(event); }
+  void on_reply(const OrderReply& reply) override { reply_ = reply; }
 
  private:
   std::vector<MissionEvent>& events_;
+  OrderReply& reply_;
 };
 
 }  // namespace
@@ -170,7 +172,7 @@ bool FaultyFlight::fly_into_moment(double flown_s, const std::function<void()>& 
 }
 
 void FaultyFlight::go_on(double seconds) {
-  Listener listener(events_);
+  Listener listener(events_, reply_);
   result_ = mission_->run(seconds, listener);
 }
 

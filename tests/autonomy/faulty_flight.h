@@ -84,6 +84,10 @@ class FaultyFlight {
   bool fly_into_event();
   /// The fault comes so long after it left the ground.
   bool fly_into_moment(double flown_s, const std::function<void()>& fault);
+  /// An operator's order, at once.
+  void order(OrderKind kind) { mission_->give({++last_order_, kind}); }
+  /// To the last one.
+  [[nodiscard]] const OrderReply& reply() const { return reply_; }
   /// Goes on for so long after the fault, or until the mission is done.
   void go_on(double seconds);
 
@@ -119,6 +123,8 @@ class FaultyFlight {
   std::unique_ptr<MissionLockstep> mission_;
   MissionResult result_;
   std::vector<MissionEvent> events_;
+  OrderReply reply_;
+  std::int64_t last_order_ = 0;
   Time fault_ = 0;
 };
 

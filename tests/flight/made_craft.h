@@ -63,6 +63,8 @@ class MadeCraft {
       case CommandKind::land:
         if (mode_ != VehicleMode::idle) mode_ = VehicleMode::land;
         return;
+      case CommandKind::resume:
+        return;
     }
   }
 

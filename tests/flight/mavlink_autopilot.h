@@ -37,9 +37,14 @@ class Flown {
   }
 
   void order(CommandKind kind, double height_m = NAN) {
+    ++last_id_;
+    order_again(kind, height_m);
+  }
+  /// With the id of the last one.
+  void order_again(CommandKind kind, double height_m = NAN) {
     Command command;
     command.stamp = now_;
-    command.id = ++last_id_;
+    command.id = last_id_;
     command.kind = kind;
     command.height_m = height_m;
     bridge_.hear(command, now_);

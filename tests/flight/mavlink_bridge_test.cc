@@ -113,9 +113,56 @@ TEST_P(MavlinkFlight, APilotHasItAtOnceAndForGood) {
       0);
   EXPECT_FALSE(flown_.answers.back().accepted);
   EXPECT_EQ(flown_.answers.back().reason, "the pilot took over, mode 5");
-  flown_.bridge().operator_resumes();
+  EXPECT_TRUE(flown_.bridge().vehicle_state(flown_.now())->faults & kTakenOver);
+}
+
+TEST_P(MavlinkFlight, AnOperatorsResumeTakesItBackAndSetpointsMoveItAgain) {
+  flown_.take_off();
+  flown_.setpoints_run = true;
+  flown_.run(3000 * kMs);
+  flown_.autopilot().switch_mode(5);
   flown_.run(1000 * kMs);
-  EXPECT_GT(flown_.sent<Target>(), targets);
+  flown_.setpoints_run = false;  // the executive is silent, too
+  flown_.order(CommandKind::resume);
+  flown_.run(1500 * kMs);
+  EXPECT_TRUE(flown_.answers.back().accepted) << flown_.answers.back().reason;
+  EXPECT_FALSE(flown_.bridge().vehicle_state(flown_.now())->faults & kTakenOver);
+  EXPECT_EQ(flown_.mode(), dialect_of(GetParam()).hold.custom);
+  EXPECT_LT(flown_.craft().velocity().norm(), 0.1);  // nobody moves it yet
+  flown_.setpoints_run = true;
+  flown_.run(4000 * kMs);
+  EXPECT_EQ(flown_.mode(), dialect_of(GetParam()).guided.custom);
+  EXPECT_EQ(flown_.bridge().vehicle_state(flown_.now())->mode, VehicleMode::guided);
+  EXPECT_GT(flown_.craft().velocity().x(), 0.3);
+}
+
+TEST_P(MavlinkFlight, AResumeThatIsHeardTwiceTakesNothingFromAPilotWhoCameBetween) {
+  flown_.take_off();
+  flown_.autopilot().switch_mode(5);
+  flown_.run(1500 * kMs);
+  flown_.order(CommandKind::resume);
+  flown_.run(1500 * kMs);
+  ASSERT_TRUE(flown_.bridge().authority().ours());
+  flown_.autopilot().switch_mode(5);
+  flown_.run(1500 * kMs);
+  ASSERT_FALSE(flown_.bridge().authority().ours());
+  flown_.order_again(CommandKind::resume);
+  flown_.run(1500 * kMs);
+  EXPECT_FALSE(flown_.bridge().authority().ours());
+  flown_.order(CommandKind::resume);
+  flown_.run(1500 * kMs);
+  EXPECT_TRUE(flown_.bridge().authority().ours());
+}
+
+TEST_P(MavlinkFlight, AResumeThatTheAutopilotDoesNotAnswerLeavesItToThePilot) {
+  flown_.take_off();
+  flown_.autopilot().switch_mode(5);
+  flown_.run(1500 * kMs);
+  flown_.silent = true;
+  flown_.order(CommandKind::resume);
+  flown_.run(5000 * kMs);
+  EXPECT_FALSE(flown_.answers.back().accepted);
+  EXPECT_FALSE(flown_.bridge().authority().ours());
 }
 
 TEST_P(MavlinkFlight, AResetOfOdometryMovesTheHeldPlaceWithItAtOnce) {

@@ -63,6 +63,58 @@ TEST_P(MavlinkMission, ArmsTakesOffGoesToItsTargetReturnsAndLands) {
             1);
 }
 
+/// Takes it over on the way, and an operator who gives it back a while later.
+class Pilot : public autonomy::MissionObserver {
+ public:
+  Pilot(MavlinkPlant& plant, autonomy::MissionLockstep& mission)
+      : plant_(plant), mission_(mission) {}
+
+  void on_setpoint(const Setpoint& setpoint, const VehicleOdometry& /*odometry*/) override {
+    if (took_ == 0 && setpoint.velocity.norm() > kFast) {
+      took_ = plant_.now();
+      plant_.switch_mode(kLoiter);
+    } else if (took_ != 0 && !resumed_ && plant_.now() > took_ + kSoon) {
+      ++moved_;
+    }
+  }
+  void on_scan(const autonomy::IngestedScan& /*scan*/) override {
+    if (took_ == 0 || resumed_ || plant_.now() < took_ + kFlies) return;
+    resumed_ = true;
+    mission_.give({1, autonomy::OrderKind::resume});
+  }
+  void on_reply(const autonomy::OrderReply& reply) override { reply_ = reply; }
+
+  [[nodiscard]] bool resumed() const { return resumed_; }
+  /// Setpoints while it was the pilot's.
+  [[nodiscard]] int moved() const { return moved_; }
+  [[nodiscard]] const autonomy::OrderReply& reply() const { return reply_; }
+
+ private:
+  static constexpr double kFast = 0.5;
+  static constexpr std::uint32_t kLoiter = 5;
+  static constexpr Time kSoon = kNanosecondsPerSecond / 5, kFlies = 4 * kNanosecondsPerSecond;
+
+  MavlinkPlant& plant_;
+  autonomy::MissionLockstep& mission_;
+  Time took_ = 0;
+  bool resumed_ = false;
+  int moved_ = 0;
+  autonomy::OrderReply reply_;
+};
+
+TEST_P(MavlinkMission, APilotHasItUntilAnOperatorResumesAndThenTheMissionEndsWell) {
+  autonomy::MissionLockstep mission(config_, vehicle_.sensor(), vehicle_.site().prior, plant_,
+                                    checker_, 2, timings_);
+  Pilot pilot(plant_, mission);
+  const autonomy::MissionResult result = mission.run(200, pilot);
+  EXPECT_TRUE(pilot.resumed());
+  EXPECT_EQ(pilot.moved(), 0);
+  EXPECT_EQ(pilot.reply().state, autonomy::OrderState::accepted) << pilot.reply().text;
+  EXPECT_TRUE(result.succeeded) << to_string(result.outcome);
+  EXPECT_FALSE(plant_.autopilot().armed());
+  EXPECT_EQ(vehicle_.truth().collisions, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, MavlinkMission,
                          ::testing::Values(Autopilot::ardupilot, Autopilot::px4),
                          [](const auto& kind) { return std::string(to_string(kind.param)); });

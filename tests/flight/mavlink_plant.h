@@ -48,6 +48,8 @@ class MavlinkPlant : public autonomy::SteppedPlant {
 
   [[nodiscard]] const flight::mavlink::Bridge& bridge() const { return bridge_; }
   [[nodiscard]] const SimulatedAutopilot& autopilot() const { return autopilot_; }
+  /// A pilot's switch.
+  void switch_mode(std::uint32_t custom_mode) { autopilot_.switch_mode(custom_mode); }
   /// Modes that it was in, in their order.
   [[nodiscard]] const std::vector<std::uint32_t>& modes() const { return modes_; }
 

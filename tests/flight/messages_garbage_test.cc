@@ -28,9 +28,10 @@ int decode(const std::vector<std::uint8_t>& bytes) {
 template <class Message>
 class AnyMessage : public testing::Test {};
 
-using Messages = testing::Types<vehicle_state_t, command_t, command_ack_t, setpoint_t, odometry_t,
-                                scan_t, trajectory_t, verdict_t, occupancy_t, object_map_t,
-                                detections_t, plan_t, mission_t, health_t, exchange_t, presence_t>;
+using Messages =
+    testing::Types<vehicle_state_t, command_t, command_ack_t, setpoint_t, odometry_t, scan_t,
+                   trajectory_t, verdict_t, occupancy_t, object_map_t, detections_t, plan_t,
+                   mission_t, health_t, exchange_t, order_t, presence_t>;
 TYPED_TEST_SUITE(AnyMessage, Messages);
 
 TYPED_TEST(AnyMessage, IsNotDecodedWhenItIsCut) {

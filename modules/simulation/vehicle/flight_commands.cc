@@ -62,6 +62,8 @@ const char* FlightController::refusal(const Command& command) const {
       return mode_ == VehicleMode::descend ? "no odometry to hold by" : nullptr;
     case CommandKind::land:
       return flying() ? nullptr : "on the ground";
+    case CommandKind::resume:
+      return "nobody took it over";
   }
   return "unknown command";
 }
@@ -82,6 +84,8 @@ void FlightController::obey(const Command& command) {
       return enter(VehicleMode::hold);
     case CommandKind::land:
       if (mode_ != VehicleMode::descend) enter(VehicleMode::land);
+      return;
+    case CommandKind::resume:
       return;
   }
 }
