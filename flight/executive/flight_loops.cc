@@ -14,7 +14,10 @@ constexpr std::size_t kMostViewpoints = 10000;  // of a flight: some tens
 }  // namespace
 
 LoopStatus Executive::pose() {
-  for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample);
+  for (const lidar::ImuSample& sample : board_.imu.take_all()) {
+    body_pose_.add(sample);
+    if (contact_.add(sample)) board_.contact = sample.stamp;
+  }
   for (const PoseFix& fix : board_.pose_fixes.take_all()) {
     body_pose_.correct(fix.stamp, fix.T_odom_lidar, fix.covariance);
   }
@@ -118,6 +121,8 @@ autonomy::SupervisorInput Executive::seen(Time now) {
   input.acks = board_.acks.take_all();
   input.has_targets = has_targets_;
   input.land_ordered = board_.land_ordered;
+  input.contact = board_.contact;
+  input.grid = board_.grid.latest();
   return input;
 }
 

@@ -31,7 +31,7 @@ enum VehicleFault : std::uint32_t {
   kOdometryRejected = 2,  ///< it contradicts IMU and barometer
   kSetpointExpired = 4,   ///< the last setpoint ran out
   kBatteryLow = 8,
-  kCollision = 16,  ///< it has hit something
+  kAllVehicleFaults = 15,
 };
 
 /// 50 Hz, flight controller → executive.
