@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,6 +13,9 @@ namespace saker::autonomy {
 namespace {
 
 const Eigen::Vector3d kTakeoffFoot(0, 0, 0);  // `odom` begins there
+
+/// m, over the take-off: from higher the ground below is beyond what the map holds of it.
+constexpr double kLookHeight_m = 4;
 
 double turn_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
@@ -41,7 +45,7 @@ Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& act
       planner_(motion),
       active_(active, table, prior, planner_.geofence(), std::move(model), motion.limits),
       landing_look_(config.landing),
-      home_(0, 0, home_height_m) {
+      home_(0, 0, std::min(home_height_m, kLookHeight_m)) {
   if (active::sees_ahead(view_)) return;
   throw Error(
       "mount.rotation_deg: the lidar does not see where the vehicle flies, which is nose first: "
@@ -150,6 +154,7 @@ void Planning::choose_landing(const PlanningInput& input, const SE3& T_odom_worl
   PlanningReport& report = output.report;
   report.status = ending_.status;
   report.text = ending_.text;
+  if (ending_.moves > 0) report.text += "; moved to a place that is fit to land on";
   if (input.grid == nullptr) return;  // safety holds and lands on that
   const Eigen::Vector3d here = input.odometry.T_odom_body.translation();
   const Eigen::Vector3d stood = T_odom_world * kTakeoffFoot;

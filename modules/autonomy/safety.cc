@@ -10,21 +10,20 @@ namespace {
 
 constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
 
-/// "no scan for 0.7 s" or "no scan yet".
-std::string silence_text(const char* what, Time last, Time now, double limit_s) {
-  if (last == 0) return fmt::format("no {} yet", what);
-  if (last > now) return fmt::format("the stamp of the newest {} lies in the future", what);
-  return fmt::format("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
-                     limit_s);
-}
-
 /// One of the future is as good as none, but for clocks that differ a little.
 double age_s(Time last, Time now, double limit_s) {
   if (last == 0) return kNeverSaidAfter_s;
-  const double age = to_seconds(now) - to_seconds(last);
-  if (std::abs(age) > kNeverSaidAfter_s) return kNeverSaidAfter_s;
-  const double exact = to_seconds(now - last);
-  return exact < -limit_s ? kNeverSaidAfter_s : exact;
+  const double about = to_seconds(now) - to_seconds(last);  // the exact one may not fit into Time
+  if (std::abs(about) > kNeverSaidAfter_s || about < -limit_s) return kNeverSaidAfter_s;
+  return to_seconds(now - last);
+}
+
+/// "no scan for 0.7 s" or "no scan yet".
+std::string silence_text(const char* what, Time last, Time now, double limit_s) {
+  if (last == 0) return fmt::format("no {} yet", what);
+  const double age = age_s(last, now, limit_s);
+  if (age == kNeverSaidAfter_s) return fmt::format("the newest {} is not of this time", what);
+  return fmt::format("no {} for {:.2f} s, expected one within {:g} s", what, age, limit_s);
 }
 
 /// Of the pose, not of its status.
