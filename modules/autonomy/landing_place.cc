@@ -14,6 +14,7 @@ using occupancy::OccupancyGrid;
 
 constexpr std::size_t kLowerPart = 5;    // one in: a quantile of the surfaces around a place
 constexpr std::size_t kLeastAround = 8;  // surfaces, to say what surrounds it
+constexpr double kSteps = 1.5;           // cells
 constexpr std::size_t kLeastPlane = 3;
 
 /// Height of the first occupied cell's top below `from_z`; NaN: there is none.
@@ -146,7 +147,8 @@ void LandingLook::judge(const std::vector<Eigen::Vector3d>& surfaces, double cel
     lowest = std::min(lowest, p.z());
     highest = std::max(highest, p.z());
   }
-  const bool steep = result.slope_deg > config_.most_slope_deg;
+  const bool stepped = highest - lowest > kSteps * cell_m;  // one step alone may be the cells'
+  const bool steep = result.slope_deg > config_.most_slope_deg && stepped;
   const bool rises = highest - lowest > 4 * config_.radius_m * steepest + cell_m;
   result.off_plane_m = highest - lowest;
   result.fault = off > config_.most_off_plane_m || (steep && rises) ? LandingFault::object
