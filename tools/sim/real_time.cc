@@ -26,8 +26,7 @@ std::string names_of(std::uint32_t faults) {
       {kNoOdometry, "no odometry"},
       {kOdometryRejected, "odometry rejected"},
       {kSetpointExpired, "setpoint expired"},
-      {kBatteryLow, "battery low"},
-      {kCollision, "collision"}};
+      {kBatteryLow, "battery low"}};
   std::string names;
   for (const auto& [bit, name] : kNames) {
     if ((faults & bit) != 0) names += (names.empty() ? "" : ", ") + std::string(name);
