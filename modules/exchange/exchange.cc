@@ -34,8 +34,10 @@ Exchange::Exchange(const PeerConfig& config, const std::string& name, const Key&
                    const std::filesystem::path& folder, Store& store)
     : config_(core::checked(config, "exchange")),
       store_(store),
-      sealer_(key, name, made(folder) / "sent.counter"),
-      opener_(key, name, folder / "heard.counters") {}
+      sealer_(key, name, made(folder) / "sent.epoch"),
+      opener_(key, name, folder / "heard.windows") {
+  require_key_of(key, name);
+}
 
 void Exchange::add_link(const std::string& channel, Role role) {
   links_.try_emplace(channel, Link{"", Peer(config_, role, store_)});
