@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "flight/bus/exchange_messages.h"
 #include "flight/bus/messages.h"
 
 namespace saker::flight {
@@ -46,13 +47,25 @@ bool BaseStation::hear(const std::string& robot, const exchange_t& message) {
   if (!visits_.contains(channel)) return admit(channel, message);
   const exchange::Verdict verdict =
       exchange_.receive(nanoseconds(Steady::now()), channel, datagram_of(message));
+  if (verdict == exchange::Verdict::superseded) warn_of_earlier(robot);
   return verdict == exchange::Verdict::genuine || verdict == exchange::Verdict::own;
+}
+
+/// Of a life before the newest: said once of each robot.
+void BaseStation::warn_of_earlier(const std::string& robot) {
+  if (!warned_.insert(robot).second) return;
+  spdlog::warn(
+      "{} lost its epoch and its clock is behind, or there are two: set the clock, or renew its "
+      "key "
+      "(saker base key --robot {} --renew)",
+      robot, robot);
 }
 
 /// A robot's first message is its ticket: only what the team's key sealed makes a link. Its content
 /// is lost; a robot calls again.
 bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
   const exchange::Opened first = exchange_.opener().open(channel, datagram_of(message));
+  if (first.verdict == exchange::Verdict::superseded) warn_of_earlier(robot_of(channel));
   if (first.verdict != exchange::Verdict::genuine || first.sender != robot_of(channel))
     return false;
   if (visits_.size() >= static_cast<std::size_t>(config_.most_robots)) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <set>
 #include <string>
 
 #include "flight/base_station/store.h"
@@ -46,6 +47,7 @@ class BaseStation {
 
   bool hear(const std::string& robot, const exchange_t& message);
   [[nodiscard]] bool admit(const std::string& channel, const exchange_t& message);
+  void warn_of_earlier(const std::string& robot);
   void send(Time now);
   void look_at_contacts(Time now);
   void say_health();
@@ -56,6 +58,7 @@ class BaseStation {
   const LinkEnd* link_;
   exchange::Exchange exchange_;
   std::map<std::string, Visit> visits_;  // by channel
+  std::set<std::string> warned_;         // of robots that were heard with an earlier epoch
   long not_sent_ = 0, crowded_ = 0;
   LoopMeter meter_{"base"};
   Steady::time_point next_step_{}, next_look_{}, next_health_{};

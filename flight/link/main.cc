@@ -42,8 +42,7 @@ health_t health_of(const LinkEnd& end, LoopMeter& meter) {
   return message;
 }
 
-void serve(Bus& bus, Presence& presence, Radio& radio, const Service& started) {
-  Service service = started;
+void serve(Bus& bus, Presence& presence, Radio& radio, Service service) {
   LoopMeter meter("link");
   Steady::time_point next_health = Steady::now(), next_announcement = next_health;
   while (stop_requests() == 0) {
@@ -68,7 +67,7 @@ void serve(Bus& bus, Presence& presence, Radio& radio, const Service& started) {
 
 int run(const ProcessOptions& options) {
   const ProcessConfig config = read_configuration(options.configuration);
-  const Service service;
+  Service service;
   if (config.link.ground.empty()) {
     service.ready();
     spdlog::info("link.ground is empty: {} tells the ground nothing", options.robot);

@@ -105,9 +105,12 @@ std::vector<std::pair<std::string, long>> health(const Exchange& exchange) {
       {"exchange_conflicts", counters.peers.conflicts},
       {"exchange_refused", counters.peers.refused}};
   const std::vector<std::string> verdicts = enum_names(Verdict{});
-  for (int i = static_cast<int>(Verdict::cut); i < kVerdicts; ++i) {
-    figures.emplace_back("exchange_" + verdicts[static_cast<std::size_t>(i)],
-                         exchange.opener().count(static_cast<Verdict>(i)));
+  for (const Verdict verdict :
+       {Verdict::cut, Verdict::unknown, Verdict::forged, Verdict::replayed, Verdict::unkept}) {
+    const long earlier =
+        verdict == Verdict::replayed ? exchange.opener().count(Verdict::superseded) : 0;
+    figures.emplace_back("exchange_" + verdicts[static_cast<std::size_t>(verdict)],
+                         exchange.opener().count(verdict) + earlier);
   }
   return figures;
 }

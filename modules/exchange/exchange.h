@@ -17,8 +17,8 @@
 /// a Store of streams; makes the stores at both ends of a link equal.
 ///
 /// Order of reading: stream.h (what a stream is), store.h, peer.h (the protocol), seal.h (the
-/// team's key), packed_history.h (a flight in bytes). Nothing here opens a socket; the clock is read
-/// once, when a sealer begins its epoch.
+/// team's key), packed_history.h (a flight in bytes). Nothing here opens a socket; the clock is
+/// read once, when a sealer begins its epoch.
 namespace saker::exchange {
 
 /// Of a datagram as it goes into exchange_t.

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "saker/core/error.h"
 #include "saker/core/files.h"
 #include "saker/exchange/seal.h"

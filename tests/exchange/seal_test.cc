@@ -15,7 +15,6 @@ namespace saker::exchange {
 namespace {
 
 constexpr const char* kChannel = "R1_COMMAND";
-constexpr std::int64_t kStart = 1'800'000'000'000;  // ms
 
 /// A process that seals and one that opens, with files in a folder of this test's own.
 class Seal : public testing::Test {

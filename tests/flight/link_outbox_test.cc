@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "flight/link/fragments.h"
 #include "flight/link/outbox.h"
 

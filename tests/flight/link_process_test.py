@@ -116,6 +116,7 @@ class Attackers(RadioTest):
             time.sleep(0.5)
         self.wait(lambda: self.stored_bytes("R1") == 20_000, 30, "history of R1")
         self.stop(robot)
+        self.wait(lambda: "R1 is out of contact" in self.log("base"), 30, "end of the exchange")
 
     def nothing_gets_in(self, attack):
         """Listens on both machines while it lasts; the link works after it."""
@@ -147,36 +148,36 @@ class Attackers(RadioTest):
         dump = self.capture()
         self.talk()
         recorded, _ = self.stop_capture(dump)
-        lines = []
-        for source, to, _, payload in recorded:
-            lines.append(("udp", to, PORT, payload))
-            port = PORT if source == GROUND else self.port_of_link(recorded)
-            lines.append(("raw", to, 0, radio_world.ipv4(source, to, payload,
-                                                         PORT if to == GROUND else self.port_of_link(recorded), port)))
-        self.nothing_gets_in(lambda: self.radio_replays(lines))
+        self.nothing_gets_in(lambda: self.inject(self.replays(recorded)))
         with self.subTest("after both ends were restarted, the ground's without what it had on disk"):
             self.stop(self.base), self.stop(self.link)
             shutil.rmtree(self.folder / "base")
             for name in ("base", "link"):
                 (self.folder / f"{name}.log").write_text("")
             self.base = self.start_ground()
-            self.radio_replays(lines)
+            self.inject(self.replays(recorded))
             self.assertNotIn("R1 is there", self.log("base"))
             self.link = self.start_link()
             self.wait(lambda: "R1 is there" in self.log("base"), 20, "link")
-            self.nothing_gets_in(lambda: self.radio_replays(lines))
+            self.nothing_gets_in(lambda: self.inject(self.replays(recorded)))
 
-    def port_of_link(self, recorded):
-        return next(port for source, to, port, _ in recorded if to == ROBOT)
+    def ports(self):
+        """Of the robot's machine on which anything listens, but for LCM's."""
+        table = subprocess.run([*self.robot.inside, "cat", "/proc/net/udp"], check=True, capture_output=True, text=True)
+        ports = {int(line.split()[1].split(":")[1], 16) for line in table.stdout.splitlines()[1:]}
+        return sorted(ports - {0, 7667, 7668})
 
-    def radio_replays(self, lines):
-        self.inject(lines[:1500])
+    def replays(self, recorded):
+        """From the attacker's own address, and from that of whoever said it."""
+        for source, to, port, payload in recorded[:400]:
+            for goal in [PORT] if to == GROUND else self.ports():
+                yield "udp", to, goal, payload
+                yield "raw", to, 0, radio_world.ipv4(source, to, payload, goal)
 
     def test_one_who_forges_gets_nothing_in(self):
         dump = self.capture()
         self.talk()
         recorded, _ = self.stop_capture(dump)
-        link_port = self.port_of_link(recorded)
         draw = random.Random(1)
         other = self.folder / "other.key"
         self.make_key(other)
@@ -187,7 +188,8 @@ class Attackers(RadioTest):
             at = draw.randrange(len(payload))
             payloads.append(payload[:at] + bytes([payload[at] ^ 1 << draw.randrange(8)]) + payload[at + 1:])
         lines = [("udp", GROUND, PORT, payload) for payload in payloads]
-        lines += [("raw", ROBOT, 0, radio_world.ipv4(GROUND, ROBOT, payload, link_port)) for payload in payloads]
+        lines += [("raw", ROBOT, 0, radio_world.ipv4(GROUND, ROBOT, payload, port)) for payload in payloads
+                  for port in self.ports()]
         self.nothing_gets_in(lambda: self.inject(lines))
 
     def test_one_who_speaks_lcm_to_the_radio_gets_nothing_in(self):

@@ -55,12 +55,11 @@ class RadioTest(NamespaceTest):
         inside = self.attacker.inside
         ip("link", "add", "air", "type", "bridge", inside=inside)
         for machine, name, address in ((None, "ground", GROUND), (self.robot, "robot", ROBOT)):
-            words = ["netns", machine.holder.pid] if machine else []
             where = machine.inside if machine else []
             ip("link", "add", "name", name, "type", "veth", "peer", "name", f"{name}_air", "netns",
                self.attacker.holder.pid)
             if machine:
-                ip("link", "set", name, *words)
+                ip("link", "set", name, "netns", machine.holder.pid)
             else:
                 self.addCleanup(subprocess.run, ["ip", "link", "delete", name], capture_output=True)
             ip("link", "set", f"{name}_air", "master", "air", "up", inside=inside)
