@@ -51,6 +51,12 @@ LinkConfig checked_config(const LinkConfig& config) {
   return core::checked(config, "link");
 }
 
+void add(const Outbox::Counters& sent, LinkEnd::Counters& all) {
+  all.out_messages += sent.messages;
+  all.out_bytes += sent.bytes;
+  all.replaced += sent.replaced;
+}
+
 /// Who says that it sealed it; not authenticated.
 std::string sender_of(std::string_view datagram) {
   exchange::ByteReader in(datagram);
@@ -92,7 +98,7 @@ bool LinkEnd::hear(const std::string& channel, const LinkedChannel& linked, Bus:
     return true;
   }
   Counterpart& counterpart = found->second;
-  if (is_echo(counterpart, linked.channel, bytes)) {
+  if (!is_new(counterpart, linked.channel, bytes)) {
     ++counters_.echoes;
     return true;
   }
@@ -106,13 +112,15 @@ bool LinkEnd::hear(const std::string& channel, const LinkedChannel& linked, Bus:
   return true;
 }
 
-bool LinkEnd::is_echo(Counterpart& counterpart, const std::string& channel, Bus::Bytes bytes) {
-  const auto found = counterpart.said.find(channel);
-  if (found == counterpart.said.end()) return false;
+/// Neither said here by this end, nor carried back by another one on the same LCM.
+bool LinkEnd::is_new(Counterpart& counterpart, const std::string& channel, Bus::Bytes bytes) {
+  std::deque<Said>& said = counterpart.said[channel];
+  while (!said.empty() && (now_ - said.front().when > kEchoAge || said.size() > kMostSaid))
+    said.pop_front();
   const std::uint64_t heard = hash(bytes);
-  return std::any_of(found->second.begin(), found->second.end(), [&](const Said& said) {
-    return said.hash == heard && now_ - said.when < kEchoAge;
-  });
+  if (std::ranges::find(said, heard, &Said::hash) != said.end()) return false;
+  said.push_back({heard, now_});
+  return true;
 }
 
 void LinkEnd::step(Steady::time_point now) {
@@ -122,7 +130,7 @@ void LinkEnd::step(Steady::time_point now) {
     look_after(robot, counterpart);
     const bool gone = end_ == End::ground && !counterpart.there &&
                       now - counterpart.seen > std::chrono::duration<double>(config_.lost_s);
-    if (gone) counters_.replaced += counterpart.outbox.counters().replaced;
+    if (gone) add(counterpart.outbox.counters(), counters_);
     at = gone ? counterparts_.erase(at) : std::next(at);
   }
 }
@@ -237,9 +245,7 @@ void LinkEnd::deliver(const std::string& robot, Counterpart& counterpart, std::s
   counters_.incomplete += joiner.incomplete() - incomplete;
   if (!message) return;
   const Bus::Bytes bytes(reinterpret_cast<const std::uint8_t*>(message->data()), message->size());
-  std::deque<Said>& said = counterpart.said[suffix];
-  said.push_back({hash(bytes), now_});
-  if (said.size() > kMostSaid) said.pop_front();
+  (void)is_new(counterpart, suffix, bytes);  // from here on it is not
   ++counters_.in_messages;
   counters_.in_bytes += static_cast<long>(message->size());
   (void)bus_.publish_raw(robot + suffix, bytes);
@@ -261,12 +267,7 @@ int LinkEnd::connected() const {
 
 LinkEnd::Counters LinkEnd::counters() const {
   Counters all = counters_;
-  for (const auto& [robot, counterpart] : counterparts_) {
-    const Outbox::Counters& sent = counterpart.outbox.counters();
-    all.out_messages += sent.messages;
-    all.out_bytes += sent.bytes;
-    all.replaced += sent.replaced;
-  }
+  for (const auto& [robot, counterpart] : counterparts_) add(counterpart.outbox.counters(), all);
   return all;
 }
 

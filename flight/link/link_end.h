@@ -56,7 +56,7 @@ class LinkEnd {
     long out_messages = 0, out_bytes = 0;  ///< sent to the counterparts
     long replaced = 0;                     ///< by newer ones before they were due
     long nobody = 0;                       ///< not sent: their counterpart is not there
-    long echoes = 0;                       ///< heard on this LCM, but said there by this end
+    long echoes = 0;  ///< heard on this LCM, but said there by this end, or carried back
     long oversized = 0;
     long not_sent = 0;    ///< datagrams that the network did not take
     long incomplete = 0;  ///< messages of which a piece was lost
@@ -93,7 +93,7 @@ class LinkEnd {
     Session session;
     Outbox outbox;
     std::map<std::string, FragmentJoiner> joiners{};  // by channel
-    std::map<std::string, std::deque<Said>> said{};   // here, by channel
+    std::map<std::string, std::deque<Said>> said{};   // and heard here, by channel
     Steady::time_point next_call{}, next_answer{}, next_warning{}, seen{};
     bool there = false;
   };
@@ -106,8 +106,7 @@ class LinkEnd {
   void deliver(const std::string& robot, Counterpart& counterpart, std::string_view body);
   void send(const std::string& robot, const Address& to, const std::string& payload);
   void look_after(const std::string& robot, Counterpart& counterpart);
-  [[nodiscard]] bool is_echo(Counterpart& counterpart, const std::string& channel,
-                             Bus::Bytes bytes);
+  [[nodiscard]] bool is_new(Counterpart& counterpart, const std::string& channel, Bus::Bytes bytes);
 
   LinkConfig config_;
   End end_;

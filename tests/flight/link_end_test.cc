@@ -101,6 +101,17 @@ TEST_F(ALink, WhatCameUpIsNotSentDownAgain) {
   EXPECT_EQ(ground->counters().out_messages, 0);
 }
 
+TEST_F(ALink, BothEndsOnOneLcmCarryNothingRound) {
+  run(1);
+  say(*robot->bus, "R1_STATE", "once");
+  for (int i = 0; i < 200; ++i) {
+    step();
+    for (const auto& [channel, text] : std::exchange(heard, {}))  // as if it were one LCM
+      say(*robot->bus, channel, text);
+  }
+  EXPECT_EQ(robot->end->counters().out_messages, 1);
+}
+
 TEST_F(ALink, ATrajectoryOf180KilobytesArrivesWhole) {
   air.jitter_s = 0.02;
   air.repeated = 0.3;
