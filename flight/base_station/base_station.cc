@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "flight/base_station/sealed.h"
+#include "flight/bus/exchange_messages.h"
 #include "flight/bus/messages.h"
 
 namespace saker::flight {
@@ -30,22 +30,16 @@ counter_t counter(const std::string& name, long value) {
 
 }  // namespace
 
-BaseStation::BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& robots,
-                         Bus* ground)
+BaseStation::BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& bus,
+                         const LinkEnd* link)
     : config_(core::checked(config.base, "base")),
       store_(store),
-      robots_(robots),
-      ground_(ground),
-      exchange_(config.exchange.link, robots.robot(), exchange::read_key(config.exchange.key_file),
+      bus_(bus),
+      link_(link),
+      exchange_(config.exchange.link, bus.robot(), exchange::read_key(config.exchange.key_file),
                 config_.folder, store) {
-  robots_.subscribe_all<exchange_t>(
+  bus_.subscribe_all<exchange_t>(
       [this](const std::string& robot, const exchange_t& message) { return hear(robot, message); });
-  if (ground_ == nullptr) return;
-  relay_.emplace(config_.relay, robots_, *ground_,
-                 [this](const std::string& channel, Bus::Bytes sealed) {
-                   return opened_order(exchange_.opener(), channel, sealed, system_utime(),
-                                       config_.relay.most_age_s);
-                 });
 }
 
 bool BaseStation::hear(const std::string& robot, const exchange_t& message) {
@@ -53,13 +47,25 @@ bool BaseStation::hear(const std::string& robot, const exchange_t& message) {
   if (!visits_.contains(channel)) return admit(channel, message);
   const exchange::Verdict verdict =
       exchange_.receive(nanoseconds(Steady::now()), channel, datagram_of(message));
+  if (verdict == exchange::Verdict::superseded) warn_of_earlier(robot);
   return verdict == exchange::Verdict::genuine || verdict == exchange::Verdict::own;
+}
+
+/// Of a life before the newest: said once of each robot.
+void BaseStation::warn_of_earlier(const std::string& robot) {
+  if (!warned_.insert(robot).second) return;
+  spdlog::warn(
+      "{} lost its epoch and its clock is behind, or there are two: set the clock, or renew its "
+      "key "
+      "(saker base key --robot {} --renew)",
+      robot, robot);
 }
 
 /// A robot's first message is its ticket: only what the team's key sealed makes a link. Its content
 /// is lost; a robot calls again.
 bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
   const exchange::Opened first = exchange_.opener().open(channel, datagram_of(message));
+  if (first.verdict == exchange::Verdict::superseded) warn_of_earlier(robot_of(channel));
   if (first.verdict != exchange::Verdict::genuine || first.sender != robot_of(channel))
     return false;
   if (visits_.size() >= static_cast<std::size_t>(config_.most_robots)) {
@@ -73,7 +79,6 @@ bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
 
 void BaseStation::step(Steady::time_point now) {
   const LoopMeter::Run run(meter_);
-  if (relay_) relay_->step(now);
   if (now >= next_step_) {
     next_step_ = now + kStepPeriod;
     send(nanoseconds(now));
@@ -89,14 +94,13 @@ void BaseStation::step(Steady::time_point now) {
 }
 
 BaseStation::Steady::time_point BaseStation::next_due() const {
-  const auto due = std::min(next_step_, next_health_);
-  return relay_ ? std::min(due, relay_->next_due()) : due;
+  return std::min(next_step_, next_health_);
 }
 
 void BaseStation::send(Time now) {
   while (const auto datagram = exchange_.next(now)) {
     const exchange_t message = to_lcm(system_utime(), datagram->bytes);
-    not_sent_ += !robots_.publish_as(robot_of(datagram->channel), message);
+    not_sent_ += !bus_.publish_as(robot_of(datagram->channel), message);
   }
 }
 
@@ -115,10 +119,10 @@ void BaseStation::look_at_contacts(Time now) {
 
 void BaseStation::say_totals() const {
   const exchange::Exchange::Counters exchanged = exchange_.counters();
-  const Relay::Counters relayed = relay_ ? relay_->counters() : Relay::Counters{};
-  spdlog::info("exchange: sent {} bytes, received {}; relay: {} messages up, {} down",
-               exchanged.sent_bytes, exchanged.received_bytes, relayed.up.messages,
-               relayed.down.messages);
+  const LinkEnd::Counters linked = link_ != nullptr ? link_->counters() : LinkEnd::Counters{};
+  spdlog::info("exchange: sent {} bytes, received {}; link: {} messages up, {} down, {} refused",
+               exchanged.sent_bytes, exchanged.received_bytes, linked.in_messages,
+               linked.out_messages, linked.refused.all());
 }
 
 void BaseStation::say_health() {
@@ -132,19 +136,12 @@ void BaseStation::say_health() {
   health.counters.push_back(counter("store_bytes", store_.file_bytes()));
   health.counters.push_back(counter("store_full", store_.full()));
   health.counters.push_back(counter("robots_refused", crowded_));
-  if (relay_) {
-    const Relay::Counters& relayed = relay_->counters();
-    health.counters.push_back(counter("up_bytes", relayed.up.bytes));
-    health.counters.push_back(counter("down_bytes", relayed.down.bytes));
-    health.counters.push_back(counter("relay_replaced", relayed.replaced));
-    health.counters.push_back(counter("relay_not_ours", relayed.not_ours));
-    health.counters.push_back(counter("relay_echoes", relayed.echoes));
-    health.counters.push_back(
-        counter("relay_dropped", relayed.oversized + relayed.crowded + relayed.not_sent));
+  if (link_ != nullptr) {
+    for (const auto& [name, value] : flight::health(*link_))
+      health.counters.push_back(counter(name, value));
   }
   health.num_counters = static_cast<std::int32_t>(health.counters.size());
-  not_sent_ += !robots_.publish(health);
-  if (ground_ != nullptr) (void)ground_->publish(health);
+  not_sent_ += !bus_.publish(health);
 }
 
 }  // namespace saker::flight

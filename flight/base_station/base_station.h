@@ -1,35 +1,37 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
+#include <map>
 #include <set>
 #include <string>
 
-#include "flight/base_station/relay.h"
 #include "flight/base_station/store.h"
 #include "flight/bus/bus.h"
+#include "flight/link/link_end.h"
 #include "flight/process/configuration.h"
 #include "flight/process/loop_meter.h"
 #include "saker/exchange/exchange.h"
 
 namespace saker::flight {
 
-/// The base station on its networks: exchanges histories with every robot that has the team's key,
-/// keeps them, relays, says `_HEALTH` at 1 Hz on both networks.
+/// The base station on its machine's LCM, where the ground's end of the link (flight/link) says
+/// what robots say: exchanges histories with every robot that has a key of the team, keeps them,
+/// says
+/// `_HEALTH` at 1 Hz.
 ///
-/// One thread: handlers pass what comes to exchange and relay, `step` sends what is due.
+/// One thread: handlers pass what comes to the exchange, `step` sends what is due.
 class BaseStation {
  public:
   using Steady = std::chrono::steady_clock;
 
-  /// Subscribes to the networks, which have to outlive this as `store` does.
-  /// \param ground  null: nothing is relayed
+  /// Subscribes to the bus, which has to outlive this as `store` and `link` do.
+  /// \param link  for HEALTH; null: none
   /// Throws Error on an invalid value.
-  BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& robots, Bus* ground);
+  BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& bus, const LinkEnd* link);
 
   void step(Steady::time_point now);
 
-  /// What was sent and relayed since the start, in one line of the log.
+  /// What was sent and received since the start, in one line of the log.
   void say_totals() const;
 
   /// Until when there is nothing to do, unless something is heard.
@@ -45,17 +47,18 @@ class BaseStation {
 
   bool hear(const std::string& robot, const exchange_t& message);
   [[nodiscard]] bool admit(const std::string& channel, const exchange_t& message);
+  void warn_of_earlier(const std::string& robot);
   void send(Time now);
   void look_at_contacts(Time now);
   void say_health();
 
   BaseConfig config_;
   DatabaseStore& store_;
-  Bus& robots_;
-  Bus* ground_;
+  Bus& bus_;
+  const LinkEnd* link_;
   exchange::Exchange exchange_;
-  std::optional<Relay> relay_;
   std::map<std::string, Visit> visits_;  // by channel
+  std::set<std::string> warned_;         // of robots that were heard with an earlier epoch
   long not_sent_ = 0, crowded_ = 0;
   LoopMeter meter_{"base"};
   Steady::time_point next_step_{}, next_look_{}, next_health_{};

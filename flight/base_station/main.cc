@@ -4,12 +4,12 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <future>
 #include <optional>
 
 #include "flight/base_station/base_station.h"
 #include "flight/bus/multicast.h"
 #include "flight/bus/presence.h"
+#include "flight/link/radio.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
 #include "saker/core/error.h"
@@ -20,21 +20,6 @@ namespace {
 using Steady = BaseStation::Steady;
 
 constexpr const char* kRole = "saker-base";
-
-/// One of the base's networks, and the proof that no other base is on it.
-struct Side {
-  Side(const std::string& url, int receive_buffer_kb, const std::string& name)
-      : bus(Bus::on_network(url, receive_buffer_kb, name)),
-        presence(bus, kRole, Presence::Among::whole_network) {}
-
-  void announce() {
-    presence.announce();
-    if (presence.outranked()) throw Error(presence.other());
-  }
-
-  Bus bus;
-  Presence presence;
-};
 
 /// The folder is this process's while it lives: two that write one store would not know of each
 /// other's chunks.
@@ -57,36 +42,22 @@ class OwnFolder {
   int descriptor_ = -1;
 };
 
-/// Two sockets on one port hear each other's groups.
-void check_apart(const std::string& robots, const std::string& ground) {
-  const MulticastGroup a = multicast_group(robots), b = multicast_group(ground);
-  if (a.address == b.address || a.port == b.port)
-    throw Error("base.relay.ground_url " + ground +
-                ", expected another group and another port than bus.control_url " + robots);
-}
-
-void claim(Side& robots, std::optional<Side>& ground) {
-  std::future<void> other;
-  if (ground)
-    other = std::async(std::launch::async, [&presence = ground->presence] { presence.claim(); });
-  robots.presence.claim();
-  if (ground) other.get();
-}
-
-void serve(BaseStation& base, Side& robots, std::optional<Side>& ground) {
+void serve(BaseStation& base, Bus& bus, Presence& presence, Radio* radio) {
   Service service;
   service.ready();
   Steady::time_point next_announcement = Steady::now();
   while (stop_requests() == 0) {
-    const auto until = std::min(base.next_due(), next_announcement);
+    auto until = std::min(base.next_due(), next_announcement);
+    if (radio != nullptr) until = std::min(until, radio->end().next_due());
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until - Steady::now());
-    if (Bus::handle({&robots.bus, ground ? &ground->bus : nullptr}, wait) < 0)
+    if (Bus::handle({&bus}, wait, radio != nullptr ? radio->descriptor() : -1) < 0)
       throw Error("the LCM network is gone");
     base.step(Steady::now());
+    if (radio != nullptr) radio->step(Steady::now());
     service.alive(Steady::now());
     if (Steady::now() < next_announcement) continue;
-    robots.announce();
-    if (ground) ground->announce();
+    presence.announce();
+    if (presence.outranked()) throw Error(presence.other());
     next_announcement = Steady::now() + Presence::kPeriod;
   }
   service.stopping();
@@ -94,21 +65,22 @@ void serve(BaseStation& base, Side& robots, std::optional<Side>& ground) {
 
 int run(const ProcessOptions& options) {
   const ProcessConfig config = read_configuration(options.configuration);
-  const std::string& ground_url = config.base.relay.ground_url;
-  const int buffer_kb = config.bus.receive_buffer_kb;
-  Side robots(config.bus.control_url, buffer_kb, options.robot);
-  std::optional<Side> ground;
-  if (!ground_url.empty()) {
-    check_apart(config.bus.control_url, ground_url);
-    ground.emplace(ground_url, buffer_kb, options.robot);
-  }
-  claim(robots, ground);
+  require_on_machine("bus.control_url", config.bus.control_url);
+  Bus bus = Bus::on_network(config.bus.control_url, config.bus.receive_buffer_kb, options.robot);
+  Presence presence(bus, kRole, Presence::Among::whole_network);
+  presence.claim();
   const OwnFolder own(config.base.folder);
   DatabaseStore store(store_file(config.base), config.base.most_store_mb);
-  BaseStation base(config, store, robots.bus, ground ? &ground->bus : nullptr);
+  std::optional<Radio> radio;
+  if (config.link.port != 0) {
+    radio.emplace(config.link, LinkEnd::End::ground, static_cast<std::uint16_t>(config.link.port),
+                  exchange::read_key(config.exchange.key_file), bus, config.base.most_robots);
+  }
+  BaseStation base(config, store, bus, radio ? &radio->end() : nullptr);
   spdlog::info("listens as {}, holds {} streams, {}", options.robot, store.extents().size(),
-               ground ? "relays to " + ground_url : "relays nothing");
-  serve(base, robots, ground);
+               radio ? "robots call UDP port " + std::to_string(config.link.port)
+                     : "hears no robot over the radio");
+  serve(base, bus, presence, radio ? &*radio : nullptr);
   base.say_totals();
   spdlog::info("ends as asked");
   return 0;
@@ -120,8 +92,8 @@ int run(const ProcessOptions& options) {
 int main(int argc, char** argv) {
   return saker::flight::run_program(
       {.name = "saker-base",
-       .does = "The base station: keeps every robot's history, hands it to the others, relays "
-               "between the robots' network and the ground's.",
+       .does = "The base station: keeps every robot's history, hands it to the others, and opens "
+               "what robots say over the radio onto this machine's LCM.",
        .robot = "BASE",
        .run = saker::flight::run},
       argc, argv);

@@ -42,6 +42,7 @@ std::unique_ptr<lcm::LCM> opened(const std::string& url, int buffer_kb) {
   if (!network->good() || network->getFileno() < 0) {
     throw Error("LCM cannot be opened on " + url + "; saker doctor says more");
   }
+  if (stays_on_machine(url)) hear_this_machine_alone(multicast_group(url).port);
   return network;
 }
 
@@ -66,6 +67,8 @@ const std::string& checked_name(const std::string& robot) {
 Bus::Bus(const BusConfig& config, const std::string& robot)
     : Bus(nullptr, nullptr, checked_name(robot)) {
   const BusConfig valid = core::checked(config, "bus");
+  require_on_machine("bus.control_url", valid.control_url);
+  require_on_machine("bus.bulk_url", valid.bulk_url);
   control_ = opened(valid.control_url, valid.receive_buffer_kb);
   bulk_ = opened(valid.bulk_url, valid.receive_buffer_kb);
 }
@@ -124,7 +127,8 @@ void Bus::on_message(const lcm::ReceiveBuffer* bytes, const std::string& channel
   if (refused) ++subscription->refused;
 }
 
-int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout, int most) {
+int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout, int other,
+                int most) {
   std::vector<lcm::LCM*> networks;
   std::vector<pollfd> ready;
   for (Bus* const bus : buses) {
@@ -135,6 +139,7 @@ int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds tim
       ready.push_back({network->getFileno(), POLLIN, 0});
     }
   }
+  ready.push_back({other, POLLIN, 0});  // a negative one is none
   const auto wait = static_cast<int>(std::max<std::int64_t>(0, timeout.count()));
   if (::poll(ready.data(), ready.size(), wait) <= 0) return 0;
   int handled = 0;

@@ -26,7 +26,7 @@ struct BusConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v.setting("control_url", control_url, "",
-              "LCM network of all channels but scans and occupancy; ttl=1 reaches other machines.");
+              "LCM network of all channels but scans and occupancy: never leaves the machine.");
     v.setting("bulk_url", bulk_url, "",
               "LCM network of scans and occupancy: another port, never leaves the machine.");
     v.setting("receive_buffer_kb", receive_buffer_kb, {64, 1 << 20}, "kB",
@@ -58,11 +58,14 @@ class Bus {
     long refused = 0;    ///< by the handler
   };
 
-  /// Throws Error in one line when the robot's name is not of capitals and digits, when there is no
-  /// multicast route (it names the command that mends it) or no large enough receive buffer.
+  /// Throws Error in one line when the robot's name is not of capitals and digits, when messages
+  /// would leave the machine, when there is no multicast route (it names the command that mends it)
+  /// or no large enough receive buffer. What other machines send does not come in, on whatever
+  /// interface (multicast.h).
   Bus(const BusConfig& config, const std::string& robot);
 
-  /// One network alone: what belongs to the bulk network goes there too. Throws as the constructor.
+  /// One network alone: what belongs to the bulk network goes there too. Throws as the constructor,
+  /// but for a network that is to leave the machine (ttl above 0): that one hears others as well.
   [[nodiscard]] static Bus on_network(const std::string& url, int receive_buffer_kb,
                                       const std::string& robot);
 
@@ -95,11 +98,12 @@ class Bus {
   /// Waits up to `timeout` for the first message, then handles what is there, `most` of each
   /// network; how many. A negative number: the network is gone.
   int handle(std::chrono::milliseconds timeout, int most = kMostAtOnce) {
-    return handle({this}, timeout, most);
+    return handle({this}, timeout, -1, most);
   }
-  /// The same for several at once, of which null ones are none.
+  /// The same for several at once, of which null ones are none. Returns, too, when there is
+  /// something to read on the descriptor `other`.
   static int handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds timeout,
-                    int most = kMostAtOnce);
+                    int other = -1, int most = kMostAtOnce);
 
   [[nodiscard]] const std::string& robot() const { return robot_; }
   /// One entry a subscription. To be called by any thread.

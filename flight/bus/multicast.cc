@@ -1,14 +1,19 @@
 #include "flight/bus/multicast.h"
 
 #include <arpa/inet.h>
+#include <linux/filter.h>
+#include <linux/if_packet.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <regex>
 
 #include "saker/core/error.h"
@@ -59,6 +64,17 @@ std::uint16_t join(const Socket& socket, in_addr group) {
   return joined ? ntohs(any.sin_port) : 0;
 }
 
+/// Whether it is a UDP socket that is bound to the port.
+bool is_bound_to(int descriptor, std::uint16_t port) {
+  int type = 0;
+  sockaddr_in bound{};
+  socklen_t type_size = sizeof type, size = sizeof bound;
+  return ::getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &type_size) == 0 &&
+         type == SOCK_DGRAM &&
+         ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&bound), &size) == 0 &&
+         bound.sin_family == AF_INET && ntohs(bound.sin_port) == port;
+}
+
 }  // namespace
 
 MulticastGroup multicast_group(const std::string& url) {
@@ -72,6 +88,49 @@ MulticastGroup multicast_group(const std::string& url) {
     if (port > 0 && port <= 65535) return {found[1].str(), static_cast<std::uint16_t>(port)};
   }
   throw Error("LCM URL " + url + ", expected udpm://239.255.76.67:7667?ttl=0 or another group");
+}
+
+bool stays_on_machine(const std::string& url) {
+  static const std::regex kTtl("[?&]ttl=([^&]*)");
+  static const std::regex kNone("0+");
+  for (std::sregex_iterator at(url.begin(), url.end(), kTtl), end; at != end; ++at) {
+    if (!std::regex_match((*at)[1].str(), kNone)) return false;
+  }
+  return true;
+}
+
+void require_on_machine(const std::string& key, const std::string& url) {
+  if (stays_on_machine(url)) return;
+  throw Error(key + " " + url +
+              ", expected ttl=0: whoever hears the flight bus may send setpoints; saker-link joins "
+              "robot and ground (link.ground)");
+}
+
+void hear_this_machine_alone(std::uint16_t port) {
+  const auto load = [](std::uint16_t size, int what) {
+    return sock_filter BPF_STMT(static_cast<std::uint16_t>(BPF_LD | size | BPF_ABS),
+                                static_cast<std::uint32_t>(SKF_AD_OFF + what));
+  };
+  const auto is = [](std::uint32_t value, std::uint8_t skip) {
+    return sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, skip, 0);
+  };
+  std::array<sock_filter, 6> code = {load(BPF_B, SKF_AD_PKTTYPE),
+                                     is(PACKET_LOOPBACK, 3),
+                                     load(BPF_W, SKF_AD_IFINDEX),
+                                     is(::if_nametoindex("lo"), 1),
+                                     sock_filter BPF_STMT(BPF_RET | BPF_K, 0),
+                                     sock_filter BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFF)};
+  const sock_fprog filter{static_cast<unsigned short>(code.size()), code.data()};
+  int sockets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int descriptor = std::stoi(entry.path().filename());
+    if (!is_bound_to(descriptor, port)) continue;
+    ++sockets;
+    if (::setsockopt(descriptor, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)
+      throw Error(because("no filter of what other machines send"));
+  }
+  if (sockets == 0)
+    throw Error("no socket on port " + std::to_string(port) + " to shut to other machines");
 }
 
 std::string multicast_fault(const MulticastGroup& group) {

@@ -20,6 +20,19 @@ struct MulticastGroup {
 /// hear nothing.
 [[nodiscard]] std::string multicast_fault(const MulticastGroup& group);
 
+/// Whether what is sent to this URL stays on the machine: ttl=0, or none, which is LCM's default.
+[[nodiscard]] bool stays_on_machine(const std::string& url);
+
+/// Throws Error where it does not. \param key  the setting, for the message
+void require_on_machine(const std::string& key, const std::string& url);
+
+/// From here on no UDP socket of this process on `port` hears what another machine sent. LCM binds
+/// to all interfaces: without this a datagram to the port of any of them is a message, whatever the
+/// ttl and the multicast route. A filter in the kernel lets in what came over lo, and multicast
+/// that this machine hears of itself (socket(7), SO_ATTACH_FILTER). Throws Error where there is no
+/// such socket, or the kernel refuses.
+void hear_this_machine_alone(std::uint16_t port);
+
 /// The command that mends a missing route on this machine alone.
 [[nodiscard]] std::string multicast_remedy(const MulticastGroup& group);
 

@@ -5,6 +5,7 @@
 #include "flight/base_station/config.h"
 #include "flight/bus/bus.h"
 #include "flight/command_line/configuration_source.h"
+#include "flight/link/config.h"
 #include "flight/mavlink/config.h"
 #include "saker/autonomy/config.h"
 #include "saker/autonomy/team_config.h"
@@ -25,9 +26,10 @@ struct ExchangeConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.setting("key_file", key_file, "",
-              "File of the team's key, the same on robots, base and ground (saker base key); "
-              "without it a robot tells nobody.");
+    v.setting(
+        "key_file", key_file, "",
+        "File of a key: the team's at the base, a robot's own on it (saker base key); without "
+        "it a robot tells nobody.");
     v.setting("folder", folder, "",
               "A robot keeps what it tells and hears in this folder, made if need be; empty: it "
               "tells nobody.");
@@ -67,6 +69,7 @@ struct ProcessConfig {
   ExchangeConfig exchange;
   autonomy::TeamConfig team;
   BaseConfig base;
+  LinkConfig link;
   mavlink::MavlinkConfig mavlink;
   uncertainty::FitConfig fit;
 
@@ -78,6 +81,7 @@ struct ProcessConfig {
     v.group("exchange", exchange, "what robots and base station tell each other");
     v.group("team", team, "what a robot makes of what others mapped");
     v.group("base", base, "the base station, saker-base");
+    v.group("link", link, "over the radio, between saker-link on a robot and saker-base");
     v.group("mavlink", mavlink, "the bridge to the autopilot, saker-mavlink");
     v.group("fit", fit, "of uncertainty models to samples, saker characterise fit");
   }

@@ -9,10 +9,11 @@ constexpr const char* kFaces =
 
 }  // namespace
 
-const std::array<core::MovedKey, 26> kOldKeys = {{
+const std::array<core::MovedKey, 27> kOldKeys = {{
     {"active.targets.default_size_m", nullptr, kClass},
     {"active.view.highest_deg", nullptr, "the sensor's metadata says its beams"},
     {"active.view.lowest_deg", nullptr, "the sensor's metadata says its beams"},
+    {"base.relay", nullptr, "robots and ground are joined by saker-link: link.ground, link.port"},
     {"detection.vehicle.footprint.high_percentile", "detection.vehicle.hull.high_percentile", ""},
     {"detection.vehicle.footprint.low_percentile", "detection.vehicle.hull.low_percentile", ""},
     {"detection.vehicle.footprint.method", nullptr,

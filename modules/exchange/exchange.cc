@@ -34,8 +34,10 @@ Exchange::Exchange(const PeerConfig& config, const std::string& name, const Key&
                    const std::filesystem::path& folder, Store& store)
     : config_(core::checked(config, "exchange")),
       store_(store),
-      sealer_(key, name, made(folder) / "sent.counter"),
-      opener_(key, name, folder / "heard.counters") {}
+      sealer_(key, name, made(folder) / "sent.epoch"),
+      opener_(key, name, folder / "heard.windows") {
+  require_key_of(key, name);
+}
 
 void Exchange::add_link(const std::string& channel, Role role) {
   links_.try_emplace(channel, Link{"", Peer(config_, role, store_)});
@@ -103,9 +105,12 @@ std::vector<std::pair<std::string, long>> health(const Exchange& exchange) {
       {"exchange_conflicts", counters.peers.conflicts},
       {"exchange_refused", counters.peers.refused}};
   const std::vector<std::string> verdicts = enum_names(Verdict{});
-  for (int i = static_cast<int>(Verdict::cut); i < kVerdicts; ++i) {
-    figures.emplace_back("exchange_" + verdicts[static_cast<std::size_t>(i)],
-                         exchange.opener().count(static_cast<Verdict>(i)));
+  for (const Verdict verdict :
+       {Verdict::cut, Verdict::unknown, Verdict::forged, Verdict::replayed, Verdict::unkept}) {
+    const long earlier =
+        verdict == Verdict::replayed ? exchange.opener().count(Verdict::superseded) : 0;
+    figures.emplace_back("exchange_" + verdicts[static_cast<std::size_t>(verdict)],
+                         exchange.opener().count(verdict) + earlier);
   }
   return figures;
 }

@@ -17,11 +17,12 @@
 /// a Store of streams; makes the stores at both ends of a link equal.
 ///
 /// Order of reading: stream.h (what a stream is), store.h, peer.h (the protocol), seal.h (the
-/// team's key), packed_history.h (a flight in bytes). Nothing here opens a socket or reads a clock.
+/// team's key), packed_history.h (a flight in bytes). Nothing here opens a socket; the clock is
+/// read once, when a sealer begins its epoch.
 namespace saker::exchange {
 
 /// Of a datagram as it goes into exchange_t.
-constexpr std::size_t kLongestDatagram = 1200;
+constexpr std::size_t kLongestDatagram = 1232;
 static_assert(kLongestMessage + kSealBytes <= kLongestDatagram);
 
 /// A sealed datagram and where it goes.
@@ -36,7 +37,7 @@ class Exchange {
   struct Counters {
     long sent_bytes = 0, sent_datagrams = 0;
     long received_bytes = 0, received_datagrams = 0;  ///< whatever they are worth
-    long unsealed = 0;     ///< not sent: no counters to seal with (a full disk)
+    long unsealed = 0;                                ///< not sent: this is another robot's key
     long strangers = 0;    ///< genuine, but of another than the link's counterpart
     Peer::Counters peers;  ///< of all links
   };
@@ -54,8 +55,8 @@ class Exchange {
   /// \param name  under which this process seals: R1, BASE
   /// \param folder  where the seal's counters are kept; made when it is not there
   /// \param store  has to outlive this
-  /// Throws Error on an invalid configuration, a name that is none, a folder that cannot be
-  /// written.
+  /// Throws Error on an invalid configuration, a name that is none, another robot's key, a folder
+  /// that cannot be written.
   Exchange(const PeerConfig& config, const std::string& name, const Key& key,
            const std::filesystem::path& folder, Store& store);
 
@@ -68,8 +69,7 @@ class Exchange {
   /// The next datagram that is due on any link; call until there is none, at 50 Hz or more.
   [[nodiscard]] std::optional<Datagram> next(Time now);
 
-  /// For other channels that the team's key covers (COMMAND over the relay).
-  [[nodiscard]] Sealer& sealer() { return sealer_; }
+  /// For a robot's first message, before it has a link.
   [[nodiscard]] Opener& opener() { return opener_; }
   [[nodiscard]] const Opener& opener() const { return opener_; }
 

@@ -64,5 +64,81 @@ TEST(KeyFile, WhatIsNoKeyIsRefused) {
   EXPECT_NE(fault_of(test_folder() / "none").find("cannot read"), std::string::npos);
 }
 
+TEST(RobotsKey, FollowsFromTheTeamsNameByNameAndRenewalByRenewal) {
+  Key team = test_key();
+  const Key r1 = key_of(team, "R1").value();
+  EXPECT_EQ(key_of(team, "R1").value(), r1);
+  EXPECT_NE(key_of(team, "R2").value(), r1);
+  EXPECT_NE(key_of(team, "R1").value(), team);
+  ++team.renewed["R1"];
+  EXPECT_NE(key_of(team, "R1").value(), r1);
+}
+
+TEST(RobotsKey, LeadsToNoOther) {
+  const Key r1 = key_of(test_key(), "R1").value();
+  EXPECT_EQ(key_of(r1, "R1").value(), r1);
+  EXPECT_FALSE(key_of(r1, "R2"));
+  EXPECT_THROW(make_robot_key_file(r1, "R2", test_folder() / "key"), Error);
+}
+
+TEST(RobotsKey, IsReadAsItWasMade) {
+  const auto folder = test_folder();
+  make_key_file(folder / "team");
+  const Key team = read_key(folder / "team");
+  make_robot_key_file(team, "R1", folder / "r1");
+  const Key r1 = read_key(folder / "r1");
+  EXPECT_EQ(r1.robot, "R1");
+  EXPECT_EQ(r1, key_of(team, "R1").value());
+  EXPECT_EQ(std::filesystem::status(folder / "r1").permissions(),
+            perms::owner_read | perms::owner_write);
+  EXPECT_THROW(make_robot_key_file(team, "R1", folder / "r1"), Error) << "it is there";
+  EXPECT_THROW(make_robot_key_file(team, "no name", folder / "r2"), Error);
+}
+
+TEST(RobotsKey, RenewedItIsAnotherAndThatOfOthersStays) {
+  const auto folder = test_folder();
+  make_key_file(folder / "team");
+  const Key before = read_key(folder / "team");
+  renew_key(folder / "team", "R1");
+  renew_key(folder / "team", "R3");
+  renew_key(folder / "team", "R1");
+  const Key after = read_key(folder / "team");
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(after.renewed, (std::map<std::string, std::uint32_t>{{"R1", 2}, {"R3", 1}}));
+  EXPECT_NE(key_of(after, "R1"), key_of(before, "R1"));
+  EXPECT_EQ(key_of(after, "R2"), key_of(before, "R2"));
+  EXPECT_EQ(std::filesystem::status(folder / "team").permissions(),
+            perms::owner_read | perms::owner_write);
+}
+
+TEST(RobotsKey, IsRenewedInTheTeamsFileAlone) {
+  const auto folder = test_folder();
+  make_robot_key_file(test_key(), "R1", folder / "r1");
+  EXPECT_THROW(renew_key(folder / "r1", "R1"), Error);
+  make_key_file(folder / "team");
+  EXPECT_THROW(renew_key(folder / "team", "no name"), Error);
+}
+
+TEST(RobotsKey, IsOnlyThatRobots) {
+  const Key r1 = key_of(test_key(), "R1").value();
+  EXPECT_NO_THROW(require_key_of(r1, "R1"));
+  EXPECT_NO_THROW(require_key_of(test_key(), "R2"));
+  EXPECT_THROW(require_key_of(r1, "R2"), Error);
+}
+
+TEST(RobotsKey, LinesThatSayNothingAreRefused) {
+  const auto file = test_folder() / "key";
+  const std::string digits(64, 'a');
+  for (const std::string& text :
+       {digits + "\nR1", digits + "\nR1 x", digits + "\nR1 1x", digits + "\nr1 1", digits + "\nR1 ",
+        "R1 " + digits + "\nR2 1", "r1 " + digits, "R1 " + digits + "0"}) {
+    core::write_file(file, text);
+    std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
+    EXPECT_NE(fault_of(file).find("expected 64 hexadecimal digits"), std::string::npos) << text;
+  }
+  core::write_file(file, digits + "\r\n\nR1 1\n");
+  EXPECT_EQ(fault_of(file), "");
+}
+
 }  // namespace
 }  // namespace saker::exchange

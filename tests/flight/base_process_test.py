@@ -177,9 +177,15 @@ class Start(NamespaceTest):
         self.assertEqual(self.stop(base), 0)
         self.assertIn("ends as asked", self.log("base"))
 
-    def test_two_networks_on_one_port_are_refused(self):
-        self.assertIn("expected another group and another port",
-                      self.refusal("base.relay.ground_url=udpm://239.255.76.68:7667?ttl=0"))
+    def test_a_flight_bus_that_leaves_the_machine_is_refused(self):
+        self.assertIn("expected ttl=0", self.refusal("bus.control_url=udpm://239.255.76.67:7667?ttl=1"))
+
+    def test_the_key_of_one_robot_is_refused(self):
+        own = self.folder / "R1.key"
+        run = subprocess.run([BIN / "saker", "base", "key", "--robot", "R1", "-o", own, "--set",
+                              f"exchange.key_file={self.key}"], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("the key is that of R1", self.refusal(f"exchange.key_file={own}"))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "flight/base_station/sealed.h"
+#include "flight/bus/exchange_messages.h"
 
 namespace saker::flight {
 namespace {
@@ -17,7 +17,7 @@ using Steady = BaseStation::Steady;
 
 const exchange::StreamId kFlight{"R1", exchange::StreamKind::history, 1};
 
-/// A base on networks without sockets, and robots on the same.
+/// A base on a network without sockets, robots on the same and one over the radio.
 class ABaseStation : public testing::Test {
  protected:
   /// A robot's end of the exchange, under a name, on a channel.
@@ -58,13 +58,13 @@ class ABaseStation : public testing::Test {
     std::filesystem::create_directory(config.base.folder);
     config.base.most_robots = 2;
     store.emplace(store_file(config.base), 100);
-    base.emplace(config, *store, robots, &ground);
-    for (Bus* const bus : {&robots, &ground}) {
-      bus->subscribe<health_t>([this, bus](const health_t& message) {
-        health[bus] = message;
-        return true;
-      });
-    }
+    link.emplace(config.link, LinkEnd::End::ground, key, robots, 2,
+                 [](const Address&, std::string_view) { return true; });
+    base.emplace(config, *store, robots, &*link);
+    robots.subscribe<health_t>([this](const health_t& message) {
+      health = message;
+      return true;
+    });
   }
   void TearDown() override { std::filesystem::remove_all(folder); }
 
@@ -73,7 +73,7 @@ class ABaseStation : public testing::Test {
   bool run(std::initializer_list<Robot*> with, const Done& done) {
     for (const auto end = Steady::now() + milliseconds(8000); Steady::now() < end && !done();) {
       for (Robot* const robot : with) robot->send();
-      Bus::handle({&robots, &ground}, milliseconds(5));
+      Bus::handle({&robots}, milliseconds(5));
       base->step(Steady::now());
     }
     return done();
@@ -84,8 +84,8 @@ class ABaseStation : public testing::Test {
   }
 
   [[nodiscard]] long counted(const std::string& name) const {
-    if (!health.contains(&robots)) return 0;
-    for (const counter_t& counter : health.at(&robots).counters)
+    if (!health) return 0;
+    for (const counter_t& counter : health->counters)
       if (counter.name == name) return counter.value;
     ADD_FAILURE() << "no counter " << name;
     return -1;
@@ -95,9 +95,10 @@ class ABaseStation : public testing::Test {
   ProcessConfig config;
   exchange::Key key{};
   std::optional<DatabaseStore> store;
-  Bus robots = Bus::in_memory("BASE"), ground = Bus::in_memory("BASE");
+  Bus robots = Bus::in_memory("BASE");
+  std::optional<LinkEnd> link;
   std::optional<BaseStation> base;
-  std::map<const Bus*, health_t> health;
+  std::optional<health_t> health;
 };
 
 TEST_F(ABaseStation, TakesARobotInAndKeepsWhatItSays) {
@@ -145,34 +146,25 @@ TEST_F(ABaseStation, MoreRobotsThanTheCeilingAreRefusedAndCounted) {
   EXPECT_TRUE(store->extents().empty());
 }
 
-TEST_F(ABaseStation, SaysHealthOnBothNetworksWithinTheMessagesLimits) {
+TEST_F(ABaseStation, SaysHealthWithinTheMessagesLimits) {
   Robot robot(*this, "R1", "R1");
   ASSERT_TRUE(robot.store.append(kFlight, std::string(5000, 'a')));
   EXPECT_TRUE(run({&robot}, [&] { return counted("exchange_sent_bytes") > 0; }));
-  ASSERT_EQ(health.size(), 2u);
-  for (const auto& [bus, message] : health) {
-    EXPECT_EQ(message.process, "saker-base");
-    EXPECT_LE(message.num_counters, health_t::MAX_COUNTERS);
-    for (const counter_t& counter : message.counters)
-      EXPECT_LE(counter.name.size(), static_cast<std::size_t>(counter_t::MAX_NAME));
-  }
+  EXPECT_EQ(health->process, "saker-base");
+  EXPECT_LE(health->num_counters, health_t::MAX_COUNTERS);
+  for (const counter_t& counter : health->counters)
+    EXPECT_LE(counter.name.size(), static_cast<std::size_t>(counter_t::MAX_NAME));
   EXPECT_GT(counted("store_bytes"), 0);
   EXPECT_EQ(counted("store_full"), 0);
+  link->receive(Steady::now(), {}, "no datagram of ours");
+  EXPECT_TRUE(run({&robot}, [&] { return counted("link_refused") == 1; }));
 }
 
-TEST_F(ABaseStation, ASealedOrderGoesDownAndAnUnsealedOneIsCounted) {
-  std::vector<std::uint8_t> heard;
-  robots.subscribe_raw("_COMMAND", [&](const std::string&, Bus::Bytes bytes) {
-    heard.assign(bytes.begin(), bytes.end());
-    return true;
-  });
-  exchange::Sealer sealer(key, "GROUND", folder / "counter");
-  const std::vector<std::uint8_t> order = {1, 2, 3};
-  const auto sealed = sealed_order(sealer, "R1_COMMAND", system_utime(), order);
-  ground.publish_raw("R1_COMMAND", std::vector<std::uint8_t>(sealed->begin(), sealed->end()));
-  ground.publish_raw("R1_COMMAND", order);
-  EXPECT_TRUE(run({}, [&] { return counted("relay_not_ours") == 1; }));
-  EXPECT_EQ(heard, order);
+TEST_F(ABaseStation, ARobotWithItsOwnKeyIsTakenInToo) {
+  key = exchange::key_of(key, "R1").value();
+  Robot robot(*this, "R1", "R1");
+  ASSERT_TRUE(robot.store.append(kFlight, std::string(5000, 'a')));
+  EXPECT_TRUE(run({&robot}, [&] { return store->size(kFlight) == 5000; }));
 }
 
 }  // namespace

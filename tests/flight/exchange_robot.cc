@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "flight/base_station/sealed.h"
 #include "flight/bus/bus.h"
+#include "flight/bus/exchange_messages.h"
 #include "saker/core/files.h"
 #include "saker/core/rng.h"
 #include "saker/exchange/exchange.h"

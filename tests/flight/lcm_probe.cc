@@ -6,12 +6,12 @@
 #include <thread>
 #include <vector>
 
-#include "flight/base_station/sealed.h"
 #include "flight/bus/bus.h"
+#include "saker/exchange/seal.h"
 
 /// Says and hears raw messages on an LCM network, for tests by processes.
 ///   lcm_probe say URL CHANNEL HEX COUNT RATE_HZ     COUNT messages: HEX and a number of 4 bytes
-///   lcm_probe order URL KEY FOLDER CHANNEL HEX AGE_S  one, sealed AGE_S ago; prints it in hex
+///   lcm_probe seal KEY SENDER CHANNEL HEX           prints it sealed, in hex
 ///   lcm_probe hear URL SECONDS SUFFIX…              prints CHANNEL HEX of what is heard
 namespace saker::flight {
 namespace {
@@ -48,15 +48,11 @@ void say(const std::vector<std::string>& words) {
   }
 }
 
-void order(const std::vector<std::string>& words) {
-  Bus bus = Bus::on_network(words.at(0), kBufferKb, "PROBE");
-  exchange::Sealer sealer(exchange::read_key(words.at(1)), "GROUND", words.at(2) + "/counter");
-  const auto age_us = static_cast<std::int64_t>(std::stod(words.at(5)) * 1e6);
-  const auto sealed =
-      sealed_order(sealer, words.at(3), system_utime() - age_us, of_hex(words.at(4)));
-  const Bytes bytes(sealed->begin(), sealed->end());
-  bus.publish_raw(words.at(3), bytes);
-  print_hex(bytes);
+void seal(const std::vector<std::string>& words) {
+  exchange::Sealer sealer(exchange::read_key(words.at(0)), words.at(1), "");
+  const Bytes payload = of_hex(words.at(3));
+  const auto sealed = sealer.seal(words.at(2), std::string(payload.begin(), payload.end()));
+  print_hex(Bytes(sealed->begin(), sealed->end()));
 }
 
 void hear(const std::vector<std::string>& words) {
@@ -81,7 +77,7 @@ int main(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "";
   try {
     if (verb == "say") saker::flight::say(words);
-    if (verb == "order") saker::flight::order(words);
+    if (verb == "seal") saker::flight::seal(words);
     if (verb == "hear") saker::flight::hear(words);
   } catch (const std::exception& error) {
     std::cerr << error.what() << std::endl;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "flight/base_station/store.h"
+#include "saker/core/error.h"
 #include "saker/exchange/key.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
@@ -14,7 +15,8 @@ namespace saker::tools {
 namespace {
 
 struct BaseOptions {
-  std::string store;
+  std::string store, robot;
+  bool renew = false;
 };
 
 std::string when(const std::optional<std::int64_t>& utime) {
@@ -58,8 +60,16 @@ int status(const BaseOptions& options, const CommonOptions& common) {
   return 0;
 }
 
-int make_key(const CommonOptions& common) {
-  exchange::make_key_file(output_file(common.out, common.force));
+int make_key(const BaseOptions& options, const CommonOptions& common) {
+  const auto file = output_file(common.out, common.force);
+  if (options.robot.empty()) {
+    if (options.renew) throw Error("--renew, expected with --robot NAME");
+    exchange::make_key_file(file);
+    return 0;
+  }
+  const std::string team_file = read_configuration(common).exchange.key_file;
+  if (options.renew) exchange::renew_key(team_file, options.robot);
+  exchange::make_robot_key_file(exchange::read_key(team_file), options.robot, file);
   return 0;
 }
 
@@ -79,12 +89,18 @@ void add_base(Commands& commands) {
       [options](const CommonOptions& common) { return status(*options, common); });
   app.add_option("--store", options->store, "the store; without it that of the configuration")
       ->type_name("FILE");
-  commands.add(group,
-               {.name = "key",
-                .does = "draws a key of the team, for every robot, the base and the ground",
-                .output = Output::file,
-                .example = "saker base key -o team.key"},
-               make_key);
+  CLI::App& key = commands.add(
+      group,
+      {.name = "key",
+       .does = "draws the team's key, which stays at the base; with --robot: writes that robot's "
+               "own, which follows from the team's (exchange.key_file)",
+       .output = Output::file,
+       .example = "saker base key -o team.key && saker base key --robot R1 -o R1.key"},
+      [options](const CommonOptions& common) { return make_key(*options, common); });
+  key.add_option("--robot", options->robot, "the robot whose key it is")->type_name("NAME");
+  key.add_flag("--renew", options->renew,
+               "a new one: those before are worth nothing once saker-base was restarted (a lost "
+               "robot, a replaced disk)");
 }
 
 }  // namespace saker::tools
