@@ -349,6 +349,15 @@ TEST(SpinningClock, OfASensorThatNobodySetBeginsAtTheFirstReception) {
             received + 5'000);
 }
 
+TEST(SpinningClock, GoesOnWhereTheRecordingsClockSteps) {
+  SpinningClock clock;
+  const Time begin = testing::kDriveBegin;
+  (void)clock.time(begin, 0, begin);
+  EXPECT_EQ(clock.time(begin + 1'000'000, 0, begin + 7 * kNanosecondsPerSecond), begin + 1'000'000);
+  EXPECT_EQ(clock.time(begin + 2'000'000, 0, begin + 2'000'000), begin + 2'000'000);
+  EXPECT_EQ(clock.steps(), 0);
+}
+
 TEST(SpinningClock, ThatStepsIsTakenBackAndCounted) {
   SpinningClock clock;
   const Time begin = testing::kDriveBegin;

@@ -27,7 +27,11 @@ std::string run(const std::string& command) {
   return status == 0 && said.empty() ? "" : "status " + std::to_string(status) + ": " + said;
 }
 
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
+std::string quoted(std::string text) {
+  text.insert(text.begin(), '\'');
+  text.push_back('\'');
+  return text;
+}
 
 }  // namespace
 

@@ -6,8 +6,9 @@
 namespace saker::lidar {
 namespace {
 
-constexpr double kSynchronous = 1;  // s between the sensor's clock and the recording's
-constexpr double kStep = 0.5;       // s of the one against the other
+constexpr double kSynchronous = 1;   // s between the sensor's clock and the recording's
+constexpr double kStep = 0.5;        // s of the one against the other
+constexpr double kNextPacket = 0.2;  // s; packets come some milliseconds apart
 constexpr Time kFarthest = std::numeric_limits<Time>::max() / 4;
 
 /// Times are whatever bytes say: sums and differences stay inside the type.
@@ -37,7 +38,8 @@ Time SpinningClock::time(Time sensor, Time period, Time received) {
     Time passed = nearest(sensor - sensor_, period);
     const Time waited = received - received_;
     const bool timed = received != 0 && received_ != 0;
-    if (timed && std::abs(to_seconds(passed) - to_seconds(waited)) > kStep) {
+    const bool plausible = passed >= 0 && to_seconds(passed) < kNextPacket;
+    if (timed && !plausible && std::abs(to_seconds(passed) - to_seconds(waited)) > kStep) {
       passed = waited;
       ++steps_;
     }

@@ -9,7 +9,8 @@ namespace saker::lidar {
 /// A Velodyne counts from the full hour, of an unknown hour; a Hesai from 1970, where somebody set
 /// its clock. Where the sensor's clock is within a second of the recording's its own times count;
 /// else the first packet gets its time of reception and the sensor's clock counts on from there. A
-/// clock that steps against the reception by half a second is taken back, and counted.
+/// sensor's clock that steps against the reception by half a second is taken back, and counted;
+/// where the reception alone steps, the sensor's goes on.
 class SpinningClock {
  public:
   /// \param sensor    ns, by the packet
