@@ -176,7 +176,7 @@ TEST(Peers, McapFilesOfOthersThatAreCutAnywhereAreReadUpToTheCut) {
         const int scans = read_made(*source).scans;
         EXPECT_GE(scans, before);
         before = scans;
-        EXPECT_NE(source->counters().ended_early, "");
+        EXPECT_TRUE(source->counters().ended_early != "" || scans == kScans) << scans;
       } catch (const Error&) {
         EXPECT_EQ(before, 0);  // no channel before the cut
       }

@@ -1,5 +1,7 @@
 #include "peer.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -19,19 +21,15 @@ bool of_node(const std::string& script) { return script.ends_with(".cjs"); }
 
 /// Runs a command line; its status and output.
 std::string run(const std::string& command) {
-  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::FILE* pipe = ::popen(fmt::format("{} 2>&1", command).c_str(), "r");
   std::string said;
   std::array<char, 4096> buffer;
   while (std::fgets(buffer.data(), buffer.size(), pipe)) said += buffer.data();
   const int status = ::pclose(pipe);
-  return status == 0 && said.empty() ? "" : "status " + std::to_string(status) + ": " + said;
+  return status == 0 && said.empty() ? "" : fmt::format("status {}: {}", status, said);
 }
 
-std::string quoted(std::string text) {
-  text.insert(text.begin(), '\'');
-  text.push_back('\'');
-  return text;
-}
+std::string quoted(const std::string& text) { return fmt::format("'{}'", text); }
 
 }  // namespace
 
@@ -49,11 +47,12 @@ std::string missing_for(const std::string& script) {
 }
 
 std::string run_peer(const std::string& script, const std::vector<std::string>& arguments) {
-  const std::string path = source_dir() + "/tests/peers/" + script;
-  std::string command = of_node(script) ? "NODE_PATH=" + quoted(node_modules()) + " node "
-                                        : std::string("/usr/bin/python3 -B ");
-  command += quoted(path);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  const std::string path = fmt::format("{}/tests/peers/{}", source_dir(), script);
+  std::string command = of_node(script)
+                            ? fmt::format("NODE_PATH={} node", quoted(node_modules().string()))
+                            : "/usr/bin/python3 -B";
+  command += fmt::format(" {}", quoted(path));
+  for (const std::string& argument : arguments) command += fmt::format(" {}", quoted(argument));
   return run(command);
 }
 

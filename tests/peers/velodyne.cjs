@@ -5,13 +5,20 @@ const { Calibration, PointCloud, RawPacket, Transformer } = require("@foxglove/v
 const messages = require("./messages.cjs");
 
 const [, , from, to, file] = process.argv;
-const NAMES = ["x", "y", "z", "ring", "t"];
+const NAMES = ["x", "y", "z", "ring", "delta_ns"];
+const LENGTHS = ["dist_correction_x", "dist_correction_y", "vert_offset_correction", "horiz_offset_correction", "focal_distance", "focal_slope"];
 let transformer;
+
+// It leaves out what ROS takes for 0.
+function calibration(file) {
+  const read = JSON.parse(fs.readFileSync(file));
+  const none = Object.fromEntries(LENGTHS.map((name) => [name, 0]));
+  return new Calibration(4, { ...read, lasers: read.lasers.map((laser) => ({ ...none, ...laser })) });
+}
 
 function decoded(bytes) {
   const raw = new RawPacket(new Uint8Array(bytes));
-  transformer ??= new Transformer(
-    file ? new Calibration(4, JSON.parse(fs.readFileSync(file))) : new Calibration(raw.inferModel()), { minRange: 0, maxRange: 1000 });
+  transformer ??= new Transformer(file ? calibration(file) : new Calibration(raw.inferModel()), { minRange: 0, maxRange: 1000 });
   const cloud = new PointCloud({ stamp: 0, maxPoints: RawPacket.MAX_POINTS_PER_PACKET });
   transformer.unpack(raw, 0, 0, cloud);
   cloud.trim();

@@ -125,7 +125,7 @@ std::vector<Entry> read_csv(const std::string& text) {
 std::vector<Entry> read_entries(const fs::path& file, const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first != std::string::npos && text[first] == '<') return read_xml(text);
-  if (file.extension() == ".csv" || text.find("lasers:") == std::string::npos) {
+  if (file.extension() == ".csv" || text.find("lasers") == std::string::npos) {
     return read_csv(text);
   }
   return read_yaml(text);
