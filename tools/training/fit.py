@@ -8,6 +8,7 @@ import re
 import numpy as np
 
 PERCENT = 1
+OTHER = 99  # label of `other` (configs/models/classes.yaml)
 
 
 def figures(labels):
@@ -19,7 +20,7 @@ def figures(labels):
         if not len(ids):
             continue
         probability.append(certainty.mean())
-        classified.append((ids != 0).mean())
+        classified.append((ids != OTHER).mean())
     return np.array(probability), np.array(classified)
 
 
