@@ -10,7 +10,8 @@ export const GIVEN_UP_AFTER_MS = 4000; // then the socket is closed and opened a
 const RETRY_MS = [250, 500, 1000];     // then every second
 const CALL_MS = 15000;                 // a service that has not answered after this has failed
 
-const MESSAGE = 1, TIME = 2, SERVICE_RESPONSE = 3;  // opcodes from the server
+const MESSAGE = 1, SERVICE_RESPONSE = 3;            // opcodes from the server
+const LAST = 5;                                     // of those that there are: time, assets and playback say nothing that we ask for
 const SERVICE_REQUEST = 2;                          // opcode to the server
 const text = new TextDecoder(), bytes = new TextEncoder();
 
@@ -159,7 +160,7 @@ export class Connection {
     } else if (opcode === SERVICE_RESPONSE) {
       const answer = readAnswer(view);
       this.#settle(answer.call, ({done}) => done(JSON.parse(text.decode(answer.payload))));
-    } else if (opcode !== TIME) throw new Error(`opcode ${opcode}`);
+    } else if (opcode === 0 || opcode > LAST) throw new Error(`opcode ${opcode}`);
   }
 
   #settle(call, how) {

@@ -15,7 +15,7 @@ import {Robots} from "./robots.js";
 import {Store} from "./store.js";
 import {Table} from "./table.js";
 import {Timeline} from "./timeline.js";
-import {SCALES} from "./uncertainty.js";
+import {MOST, SCALES} from "./uncertainty.js";
 import {legend, View} from "./view.js";
 
 const WORDS_EVERY_MS = 250;
@@ -120,7 +120,6 @@ function sayChoices() {
   const scale = SCALES[choices.uncertainty];
   const words = scale === 0 ? "uncertainty off (u)" : scale === 1 ? "95 % ellipses and whiskers as they are (u)" : `95 % ellipses and whiskers ×${scale} (u)`;
   say(uncertainty, words);
-  say(at("scaled"), scale === 0 ? "uncertainty not shown" : `yellow: 95 % of place; whiskers: 95 % of size${scale === 1 ? "" : `, ×${scale}`}`);
   at("follow").setAttribute("aria-pressed", String(choices.follow));
   connection.resubscribe();
 }
@@ -168,11 +167,13 @@ function words(changed) {
   const classes = Object.entries(CLASSES).map(([name, {glyph, colour}]) => ({name, glyph, colour}));
   if (!at("legend").children.length) legend(at("legend"), classes);
   const objects = [...store.robots.values()].reduce((sum, robot) => sum + robot.objects.size, 0);
-  show(at("empty"), objects === 0 && !at("view").classList.contains("moving"));
+  show(at("empty"), objects === 0);
+  const scale = SCALES[choices.uncertainty], few = objects > MOST ? `, of the nearest ${MOST} objects` : "";
+  say(at("scaled"), scale === 0 ? "uncertainty not shown" : `yellow: 95 % of place; whiskers: 95 % of size${scale === 1 ? "" : `, ×${scale}`}${few}`);
   const first = choices.robot ?? "R1";
   say(at("empty"), store.robots.size ? `no data yet: waiting for ${first}_OBJECTS on ${host}` : `no data yet: waiting for a robot on ${host}`);
 }
-choices.on(what => what.robot !== undefined && words(new Set()));
+choices.on(() => words(new Set()));
 
 function frame(time_ms) {
   const changed = store.takeChanges();

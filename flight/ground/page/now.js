@@ -17,9 +17,8 @@ export class Now {
     this.otherwise = el("p", {}, el("span", {class: "what"}, "If that goes on, "), this.otherwiseText = el("b", {}));
     this.ladder = el("ol", {class: "ladder", "aria-label": "Safety ladder"}, RUNGS.map(({level, name, does}) => el("li", {"data-level": level, title: does}, name)));
     this.tiles = Object.fromEntries(["battery", "height", "speed", "clearance", "link"].map(name => [name, tile(name)]));
-    this.verdict = el("p", {class: "verdict"});
     parent.append(el("div", {class: "words", "aria-live": "polite"}, this.title, this.waits, this.otherwise, this.because), this.ladder,
-      el("div", {class: "tiles"}, Object.values(this.tiles).map(({node}) => node)), this.verdict);
+      el("div", {class: "tiles"}, Object.values(this.tiles).map(({node}) => node)));
     this.parent = parent;
   }
 
@@ -40,7 +39,7 @@ export class Now {
     say(this.otherwiseText, words.otherwise);
     show(this.waits, words.waits !== "");
     show(this.otherwise, words.otherwise !== "");
-    say(this.because, robot.newest.mission ? (words.because ? `Because: ${words.because}` : "") : waitingFor(robot.name, "mission", this.host));
+    say(this.because, robot.newest.mission ? (words.because ? `Last: ${words.because}` : "") : waitingFor(robot.name, "mission", this.host));
     this.#ladder(words.level);
     this.#tiles(robot);
   }
@@ -60,9 +59,8 @@ export class Now {
     this.#tile("battery", percent(state?.battery_share, "no data yet"), old("state") || batteryWords(state?.battery_share, site?.limits), robot.battery.samples);
     this.#tile("height", quantity(state?.height_m ?? odometry?.position[2], "m", 1, "no data yet"), old("state") || "above the take-off", robot.height.samples);
     this.#tile("speed", quantity(odometry?.speed_mps, "m/s", 1, "no data yet"), old("odometry") || odometryWords(odometry), null);
-    this.#tile("clearance", quantity(verdict?.clearance_m, "m", 2, "no data yet"), old("verdict") || "nearest obstacle", null);
+    this.#tile("clearance", quantity(verdict?.clearance_m, "m", 2, "no data yet"), old("verdict") || verdictWords(verdict), null);
     this.#tile("link", live ? quantity(link?.age_s, "s", 2, "no data yet") : "a finished run", live ? linkWords(link) : "no link", robot.link.samples);
-    say(this.verdict, `Collision checker: ${verdictWords(verdict)}`);
   }
 
   #tile(name, value, sub, samples) {
@@ -88,5 +86,5 @@ function odometryWords(odometry) {
 function linkWords(link) {
   if (!link) return "";
   if (link.lost) return "lost: nothing is heard";
-  return `${quantity(link.message_rate_hz, "messages/s", 0)}${link.malformed ? `, ${link.malformed} unreadable` : ""}`;
+  return `${quantity(link.message_rate_hz, "msg/s", 0)}${link.malformed ? `, ${link.malformed} unreadable` : ""}`;
 }

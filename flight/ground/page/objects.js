@@ -92,7 +92,7 @@ export class ObjectLayer {
     const lit = () => new THREE.MeshLambertMaterial({transparent: true, opacity: 1});
     this.cuboids = new Instances(group, new THREE.BoxGeometry(1, 1, 1), marked(lit(), CUBOID_FRAGMENT));
     this.cylinders = new Instances(group, new THREE.CylinderGeometry(0.5, 0.5, 1, 12).rotateX(Math.PI / 2), lit());
-    const earth = new THREE.MeshLambertMaterial({color: "#cfc6b3", transparent: true, opacity: 0.55, depthWrite: false});
+    const earth = new THREE.MeshBasicMaterial({color: "#e2dccf"});
     this.planes = new Instances(group, new THREE.CircleGeometry(1, 20), earth);
   }
 

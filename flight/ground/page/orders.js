@@ -89,7 +89,12 @@ export class Orders {
       this.said.className = "said";
       say(this.said, "nothing was sent");
     }
-    if (not && !this.said.textContent) say(this.said, not);
+    if (!not && this.said.textContent === this.not) say(this.said, "");
+    if (not && (!this.said.textContent || this.said.textContent === this.not)) {
+      this.said.className = "said";
+      say(this.said, not);
+    }
+    this.not = not;
     show(this.said, this.said.textContent !== "");
   }
 }

@@ -10,10 +10,18 @@ import {roundLength} from "./geometry.js";
 const SLOW_MS = 90, FAST_ENOUGH = 12;  // mean time of so many frames, above which the picture gets coarser
 const COARSENESS = [1, 0.75, 0.5];     // of the screen's pixels, from the finest
 
+/// Whether WebGL is computed by the processor: then edges are not smoothed.
+function bySoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2"), names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 export class Scene {
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !bySoftware(), powerPreference: "low-power"});
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color("#eef1f4");
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.2, 4000);
@@ -43,7 +51,7 @@ export class Scene {
   }
 
   #floor() {
-    const fine = new THREE.GridHelper(400, 80, "#d5dae0", "#dfe3e8"), coarse = new THREE.GridHelper(400, 16, "#aab3bd", "#bfc6ce");
+    const fine = new THREE.GridHelper(400, 80, "#c9d0d8", "#d3d9df"), coarse = new THREE.GridHelper(400, 16, "#8d99a6", "#a4aeb9");
     for (const grid of [fine, coarse]) {
       grid.rotation.x = Math.PI / 2;
       grid.position.z = grid === fine ? -0.03 : -0.02;

@@ -7,13 +7,13 @@ import {quantity, times, withSd} from "./format.js";
 import {plot} from "./plot.js";
 import {chosenRows, rowOf, sortedRows} from "./rows.js";
 
-const ROW_PX = 46, SPARE = 6;
+const ROW_PX = 40, SPARE = 6;
 const HEADS = [["class", "Object"], ["length", "Length × width ± sd"], ["seen", "Seen"], ["target", "Target"]];
 
 export class Table {
   /// `goTo(robot, id)`; `history(robot, id)` asks for what the server keeps.
   constructor(parent, {store, choices, goTo, history, host}) {
-    Object.assign(this, {store, choices, goTo, history, host, column: "class", descending: false, words: "", off: new Set(), rows: []});
+    Object.assign(this, {store, choices, goTo, history, host, column: "target", descending: false, words: "", off: new Set(), rows: []});
     this.search = el("input", {type: "search", placeholder: "class, id, state", "aria-label": "Rows that contain", oninput: () => { this.words = this.search.value; this.update(); }});
     this.filters = el("span", {class: "chips", role: "group", "aria-label": "Classes"});
     this.count = el("span", {class: "count", "aria-live": "polite"});

@@ -7,65 +7,61 @@ import {Lines} from "./lines.js";
 import {placeOf} from "./store.js";
 
 export const SCALES = [1, 10, 0];  // what the key goes through; 0: off
-const MOST = 1500;                 // objects that get them, the first ones of the map
-const OVER_M = 0.06, CAP_M = 0.22;
+export const MOST = 1500;          // objects that get them, the nearest to what the camera looks at
+const OVER_M = 0.06, RIM_OVER_M = 0.005, CAP_M = 0.22;
 
 export class UncertaintyLayer {
   constructor(scene, group) {
+    this.scene = scene;
     this.group = new THREE.Group();
     group.add(this.group);
     this.whiskers = new Lines(scene, this.group, {colour: "#111111", width: 1.8});
-    this.disc = new THREE.CircleGeometry(1, 28);
-    this.material = new THREE.MeshBasicMaterial({color: "#f0e442", transparent: true, opacity: 0.85, depthWrite: false, side: THREE.DoubleSide});
-    this.rims = new Lines(scene, this.group, {colour: "#111111", width: 1.6});
-    this.shown = 0;
+    const flat = colour => new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide});
+    this.parts = [[new THREE.CircleGeometry(1, 24), flat("#f0e442"), 0], [new THREE.RingGeometry(0.88, 1, 24), flat("#111111"), RIM_OVER_M]];
+    this.meshes = [];
+    this.count = 0;  // ellipses
   }
 
   set(objects, scale) {
-    if (this.mesh) {
-      this.group.remove(this.mesh);
-      this.mesh.dispose();
-      this.mesh = null;
+    for (const mesh of this.meshes) {
+      this.group.remove(mesh);
+      mesh.dispose();
     }
-    const few = scale > 0 ? objects.slice(0, MOST) : [];
+    const few = scale > 0 ? this.#nearest(objects) : [];
     this.#setEllipses(few, scale);
     this.whiskers.setSegments(few.flatMap(object => (object.shape === "cylinder" ? [] : whiskerSegments(object, scale))));
-    this.shown = few.length;
+  }
+
+  #nearest(objects) {
+    if (objects.length <= MOST) return objects;
+    const {x, y} = this.scene.controls.target;
+    const away = object => Math.hypot(placeOf(object)[0] - x, placeOf(object)[1] - y);
+    return objects.map(object => [away(object), object]).sort(([a], [b]) => a - b).slice(0, MOST).map(([, object]) => object);
   }
 
   #setEllipses(objects, scale) {
-    const all = objects.flatMap(object => {
-      const ellipse = ellipse95(object.place_covariance);
-      if (!ellipse) return [];
-      const [x, y] = placeOf(object);
-      return [{x, y, z: topOf(object) + OVER_M, a: ellipse.a * scale, b: ellipse.b * scale, angle: ellipse.angle}];
+    const ellipses = objects.flatMap(object => {
+      const ellipse = ellipse95(object.place_covariance), [x, y] = placeOf(object);
+      return ellipse ? [{x, y, z: topOf(object) + OVER_M, ...ellipse}] : [];
     });
-    if (all.length) {
-      this.mesh = new THREE.InstancedMesh(this.disc, this.material, all.length);
-      const turn = new THREE.Quaternion(), up = new THREE.Vector3(0, 0, 1), matrix = new THREE.Matrix4();
-      all.forEach(({x, y, z, a, b, angle}, i) => {
+    this.count = ellipses.length;
+    if (!this.count) return;
+    const turn = new THREE.Quaternion(), up = new THREE.Vector3(0, 0, 1), matrix = new THREE.Matrix4(), place = new THREE.Vector3(), axes = new THREE.Vector3();
+    this.meshes = this.parts.map(([geometry, material, over]) => {
+      const mesh = new THREE.InstancedMesh(geometry, material, this.count);
+      ellipses.forEach(({x, y, z, a, b, angle}, i) => {
         turn.setFromAxisAngle(up, angle);
-        this.mesh.setMatrixAt(i, matrix.compose(new THREE.Vector3(x, y, z), turn, new THREE.Vector3(a, b, 1)));
+        mesh.setMatrixAt(i, matrix.compose(place.set(x, y, z + over), turn, axes.set(a * scale, b * scale, 1)));
       });
-      this.mesh.frustumCulled = false;
-      this.group.add(this.mesh);
-    }
-    this.rims.setSegments(all.flatMap(rim));
+      mesh.frustumCulled = false;
+      this.group.add(mesh);
+      return mesh;
+    });
   }
 }
 
 function topOf(object) {
   return object.shape === "cylinder" ? object.root[2] + object.height : object.position[2] + object.size[2] / 2;
-}
-
-function rim({x, y, z, a, b, angle}) {
-  const numbers = [], c = Math.cos(angle), s = Math.sin(angle);
-  const at = k => {
-    const u = a * Math.cos((k * Math.PI) / 10), v = b * Math.sin((k * Math.PI) / 10);
-    return [x + c * u - s * v, y + s * u + c * v, z + 0.005];
-  };
-  for (let k = 0; k < 20; ++k) numbers.push(...at(k), ...at(k + 1));
-  return numbers;
 }
 
 /// A line along the axis with a cap at its end, on the top face.

@@ -74,9 +74,8 @@ const VERDICTS = {
 
 /// What the collision checker says.
 export function verdictWords(verdict) {
-  if (!verdict) return "the collision checker has said nothing yet";
-  const clearance = quantity(verdict.clearance_m, "m", 2);
-  if (verdict.clear) return `way clear to its end, nearest obstacle ${clearance}`;
+  if (!verdict) return "collision checker: nothing yet";
+  if (verdict.clear) return "to what is nearest; way clear to its end";
   const until = verdict.clear_for_s > 0 ? `; clear for ${duration(verdict.clear_for_s)}` : "";
   return `${VERDICTS[verdict.reason] ?? verdict.reason}${until}`;
 }
