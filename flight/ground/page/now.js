@@ -60,7 +60,8 @@ export class Now {
     this.#tile("height", quantity(state?.height_m ?? odometry?.position[2], "m", 1, "no data yet"), old("state") || "above the take-off", robot.height.samples);
     this.#tile("speed", quantity(odometry?.speed_mps, "m/s", 1, "no data yet"), old("odometry") || odometryWords(odometry), null);
     this.#tile("clearance", quantity(verdict?.clearance_m, "m", 2, "no data yet"), old("verdict") || verdictWords(verdict), null);
-    this.#tile("link", live ? quantity(link?.age_s, "s", 2, "no data yet") : "a finished run", live ? linkWords(link) : "no link", robot.link.samples);
+    show(this.tiles.link.node, live);
+    this.#tile("link", live ? quantity(link?.age_s, "s", 2, "no data yet") : "none", live ? linkWords(link) : "", robot.link.samples);
   }
 
   #tile(name, value, sub, samples) {

@@ -154,7 +154,7 @@ export class Highlight {
     this.tube = new THREE.Mesh(new THREE.CylinderGeometry(0.5, 0.5, 1, 16).rotateX(Math.PI / 2), this.material);
   }
 
-  set(group, object, margin_m = 0.18) {
+  set(group, object, margin_m = 0.1) {
     for (const mesh of [this.box, this.tube]) mesh.removeFromParent();
     if (!object) return;
     const mesh = object.shape === "cylinder" ? this.tube : this.box;

@@ -7,7 +7,8 @@ import * as THREE from "three";
 import {OrbitControls} from "three/controls";
 import {roundLength} from "./geometry.js";
 
-const SLOW_MS = 90, FAST_ENOUGH = 12;  // mean time of so many frames, above which the picture gets coarser
+const SLOW_MS = 90, MEASURED = 12;  // mean time of so many frames, above which the picture gets coarser
+const GRID_M = 300, GRID_STEP_M = 10;
 const COARSENESS = [1, 0.75, 0.5];     // of the screen's pixels, from the finest
 
 /// Whether WebGL is computed by the processor: then edges are not smoothed.
@@ -51,19 +52,18 @@ export class Scene {
   }
 
   #floor() {
-    const fine = new THREE.GridHelper(400, 80, "#c9d0d8", "#d3d9df"), coarse = new THREE.GridHelper(400, 16, "#8d99a6", "#a4aeb9");
-    for (const grid of [fine, coarse]) {
-      grid.rotation.x = Math.PI / 2;
-      grid.position.z = grid === fine ? -0.03 : -0.02;
-      this.scene.add(grid);
-    }
-    this.floor = [fine, coarse];
+    const numbers = [];
+    for (let k = -GRID_M; k <= GRID_M; k += GRID_STEP_M) numbers.push(k, -GRID_M, 0, k, GRID_M, 0, -GRID_M, k, 0, GRID_M, k, 0);
+    const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(numbers, 3));
+    this.floor = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({color: "#b4bec8"}));
+    this.floor.position.z = -0.05;
+    this.scene.add(this.floor);
   }
 
   /// The ground under what is mapped, m: the grid lies there.
   setFloor(z) {
-    if (Math.abs(this.floor[0].position.z - (z - 0.03)) < 0.05) return;
-    this.floor.forEach((grid, i) => { grid.position.z = z - 0.03 + 0.01 * i; });
+    if (Math.abs(this.floor.position.z - (z - 0.05)) < 0.1) return;
+    this.floor.position.z = z - 0.05;
     this.invalidate();
   }
 
@@ -126,24 +126,26 @@ export class Scene {
       this.last_ms = null;
       return false;
     }
+    if (this.#tooSlow(now_ms)) this.#coarser();
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
     this.drawn += 1;
-    this.#pace(now_ms);
     return true;
   }
 
   // A slow machine gets fewer pixels, never a slower instrument.
-  #pace(now_ms) {
+  #tooSlow(now_ms) {
     if (this.last_ms) this.times.push(now_ms - this.last_ms);
     this.last_ms = now_ms;
-    if (this.times.length < FAST_ENOUGH) return;
+    if (this.times.length < MEASURED) return false;
     const mean = this.times.reduce((a, b) => a + b) / this.times.length;
     this.times = [];
-    if (mean > SLOW_MS && this.coarse + 1 < COARSENESS.length) {
-      this.coarse += 1;
-      this.#fit();
-    }
+    return mean > SLOW_MS && this.coarse + 1 < COARSENESS.length;
+  }
+
+  #coarser() {
+    this.coarse += 1;
+    this.#fit();
   }
 
   /// Moves the camera there within a third of a second; `distance` m, or as it is.

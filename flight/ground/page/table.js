@@ -142,11 +142,11 @@ export class Table {
     const of = k => samples.map(sample => [sample[0], sample[1 + k], sample[3 + k]]);
     const round = row.shape === "cylinder";
     const lines = round ? [{name: "length", samples: of(0)}] : [{name: "length", samples: of(0)}, {name: "width", samples: of(1)}];
-    const drawn = lines.map(line => plot([line], {height: 92, least: 0.2}));
-    const newest = el("div", {class: "facts"}, facts(row).flatMap(([what, value]) => [el("span", {}, what), el("b", {}, value)]));
+    const drawn = lines.map(line => plot([line], {height: 84, least: 0.2}));
+    const newest = el("div", {class: "facts"}, facts(row).flatMap(([what, value, wide]) => [el("span", {}, what), el("b", {class: wide ? "wide" : null}, value)]));
     this.card.replaceChildren(
       el("h3", {}, `${row.class} ${row.id}`, el("button", {class: "close", "aria-label": "Close", onclick: () => this.choices.set({object: null})}, "\u00d7")),
-      newest, ...drawn.map((svg, k) => el("figure", {}, el("figcaption", {}, `${round ? "diameter" : ["length", "width"][k]} over time, band: one standard deviation`), svg)));
+      ...drawn.map((svg, k) => el("figure", {}, el("figcaption", {}, `${round ? "diameter" : ["length", "width"][k]} over time, band: one standard deviation`), svg)), newest);
   }
 }
 
@@ -160,10 +160,10 @@ function facts(row) {
   return [
     ...(round ? [["diameter", withSd(row.size[0], row.sd[0], "m")]] : [["length", withSd(row.size[0], row.sd[0], "m")], ["width", withSd(row.size[1], row.sd[1], "m")]]),
     ["height", quantity(row.height_m, "m", 2)],
-    ["place", `${quantity(x, "m", 2)}, ${quantity(y, "m", 2)}, ${quantity(z, "m", 2)}`],
-    ["place, sd", (row.object.sd?.position ?? []).map(v => quantity(v, "m", 3)).join(", ") || "not computed"],
+    ["place", `${quantity(x, "m", 2)}, ${quantity(y, "m", 2)}, ${quantity(z, "m", 2)}`, true],
+    ["place, sd", (row.object.sd?.position ?? []).map(v => quantity(v, "m", 3)).join(", ") || "not computed", true],
     ["class is right", quantity(row.probability === null ? null : row.probability * 100, "%", 1)],
     ["seen", times(row.observations)],
-    ["target", row.state],
+    ["target", row.state, true],
   ];
 }

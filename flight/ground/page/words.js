@@ -17,7 +17,7 @@ const PHASE_TITLES = {
 
 /// The rungs, mildest first, with what each one does.
 export const RUNGS = [
-  {level: "none", name: "flies", does: "nothing is wrong"},
+  {level: "none", name: "all well", does: "nothing is wrong"},
   {level: "return", name: "returns", does: "flies home and lands there"},
   {level: "hold", name: "holds", does: "stays where it is until the cause is gone"},
   {level: "land", name: "lands", does: "lands where it is"},
@@ -75,7 +75,7 @@ const VERDICTS = {
 /// What the collision checker says.
 export function verdictWords(verdict) {
   if (!verdict) return "collision checker: nothing yet";
-  if (verdict.clear) return "to what is nearest; way clear to its end";
+  if (verdict.clear) return "way clear to its end";
   const until = verdict.clear_for_s > 0 ? `; clear for ${duration(verdict.clear_for_s)}` : "";
   return `${VERDICTS[verdict.reason] ?? verdict.reason}${until}`;
 }
