@@ -105,6 +105,14 @@ test("a server at which nobody flies may be silent", t => {
   assert.equal(states.at(-1), "open");
 });
 
+test("a run that is paused may be silent", t => {
+  const {socket, states, pass} = opened(t);
+  socket.text({op: "serverInfo", name: "saker-ground", metadata: {mode: "run"}});
+  socket.message(1, {});
+  pass(10000);
+  assert.equal(states.at(-1), "open");
+});
+
 test("a call waits for its own answer", async t => {
   const {socket, connection} = opened(t);
   socket.text({op: "advertiseServices", services: [{id: 5, name: "order"}]});

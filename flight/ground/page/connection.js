@@ -105,7 +105,7 @@ export class Connection {
   #listen() {
     if (!this.socket) return;
     const silent = this.now() - this.heard;
-    if (this.spoke !== this.socket && this.server) return;  // nobody flies yet: the server has nothing to say
+    if (this.server && (this.spoke !== this.socket || this.server.metadata?.mode === "run")) return;  // nobody flies, or a run is paused: nothing to say
     if (silent > GIVEN_UP_AFTER_MS) {
       const socket = this.socket;
       this.#lose();  // at once: the close of a link that hangs takes its time

@@ -87,13 +87,14 @@ export function matrixOf(object) {
 }
 
 export class ObjectLayer {
-  constructor(group) {
+  /// Ground planes go into `below`, which stays where the objects fade.
+  constructor(group, below = group) {
     this.group = group;
     const lit = () => new THREE.MeshLambertMaterial({transparent: true, opacity: 1});
     this.cuboids = new Instances(group, new THREE.BoxGeometry(1, 1, 1), marked(lit(), CUBOID_FRAGMENT));
     this.cylinders = new Instances(group, new THREE.CylinderGeometry(0.5, 0.5, 1, 12).rotateX(Math.PI / 2), lit());
     const earth = new THREE.MeshBasicMaterial({color: "#e2dccf"});
-    this.planes = new Instances(group, new THREE.CircleGeometry(1, 20), earth);
+    this.planes = new Instances(below, new THREE.CircleGeometry(1, 20), earth);
   }
 
   /// `colourOf(object)` gives a CSS colour.

@@ -21,7 +21,7 @@ export class RobotView {
     this.world = world;
     this.own = new THREE.Group();  // its own map, faded against the merged one
     world.add(this.own);
-    this.objects = new ObjectLayer(this.own);
+    this.objects = new ObjectLayer(this.own, world);
     this.uncertainty = new UncertaintyLayer(scene, this.own);
     this.prior = new PriorLayer(scene, world);
     this.geofence = new GeofenceLayer(scene, world);

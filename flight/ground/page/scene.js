@@ -7,7 +7,8 @@ import * as THREE from "three";
 import {OrbitControls} from "three/controls";
 import {roundLength} from "./geometry.js";
 
-const SLOW_MS = 90, MEASURED = 12;  // mean time of so many frames, above which the picture gets coarser
+const SLOW_MS = 60, MEASURED = 8;      // mean time of so many pictures, above which they get coarser
+const IDLE_SHARE = 0.7;                // of a picture's time, in which none is drawn: words and orders come first
 const GRID_M = 300, GRID_STEP_M = 10;
 const COARSENESS = [1, 0.75, 0.5];     // of the screen's pixels, from the finest
 
@@ -38,6 +39,7 @@ export class Scene {
     this.drawn = 0;  // frames so far
     this.times = [];
     this.coarse = 0;
+    this.idleUntil_ms = 0;
     this.#light();
     this.#floor();
     new ResizeObserver(() => this.#fit()).observe(canvas.parentElement);
@@ -121,22 +123,36 @@ export class Scene {
 
   /// Draws if something changed; says whether it did.
   draw(now_ms) {
+    if (!this.#ready(now_ms)) return false;
     this.#glide(now_ms);
-    if (!this.dirty) {
-      this.last_ms = null;
-      return false;
-    }
-    if (this.#tooSlow(now_ms)) this.#coarser();
+    if (!this.dirty) return false;
+    if (this.#tooSlow()) this.#coarser();
     this.dirty = false;
     this.renderer.render(this.scene, this.camera);
+    const gl = this.renderer.getContext();
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    this.begun_ms = now_ms;
     this.drawn += 1;
     return true;
   }
 
+  // Whether the last picture is done, and some time has passed since: pictures never queue up before what comes next.
+  #ready(now_ms) {
+    if (this.fence) {
+      const gl = this.renderer.getContext();
+      if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) return false;
+      gl.deleteSync(this.fence);
+      this.fence = null;
+      const took_ms = now_ms - this.begun_ms;
+      this.times.push(took_ms);
+      this.idleUntil_ms = took_ms > SLOW_MS ? now_ms + IDLE_SHARE * took_ms : 0;
+    }
+    return now_ms >= this.idleUntil_ms;
+  }
+
   // A slow machine gets fewer pixels, never a slower instrument.
-  #tooSlow(now_ms) {
-    if (this.last_ms) this.times.push(now_ms - this.last_ms);
-    this.last_ms = now_ms;
+  #tooSlow() {
     if (this.times.length < MEASURED) return false;
     const mean = this.times.reduce((a, b) => a + b) / this.times.length;
     this.times = [];
