@@ -176,8 +176,8 @@ function words(changed) {
 choices.on(() => words(new Set()));
 
 function frame(time_ms) {
+  requestAnimationFrame(frame);  // first: a message that cannot be shown does not end the page
   const changed = store.takeChanges();
-  view.update(changed);
   for (const topic of changed) changedWords.add(topic);
   if (time_ms - wordsAt > WORDS_EVERY_MS) {
     wordsAt = time_ms;
@@ -185,8 +185,8 @@ function frame(time_ms) {
     changedWords = new Set();
     words(taken.size ? taken : new Set(["time"]));
   }
+  view.update(changed);
   view.draw(time_ms);
-  requestAnimationFrame(frame);
 }
 
 open("objects");
