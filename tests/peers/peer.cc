@@ -33,7 +33,7 @@ std::string quoted(const std::string& text) { return fmt::format("'{}'", text); 
 
 }  // namespace
 
-fs::path node_modules() { return fs::path(source_dir()) / "build" / "peers" / "node_modules"; }
+fs::path node_modules() { return fs::path(source_dir()) / "build/npm/peers/node_modules"; }
 
 std::string missing_for(const std::string& script) {
   const bool ros = !of_node(script) || script == "write_mcap.cjs";  // its LZ4 is ROS's

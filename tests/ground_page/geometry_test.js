@@ -1,0 +1,82 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import {ellipse95, footprint, pointsOf, roundLength, toGeodetic, whiskers95} from "../../flight/ground/page/geometry.js";
+import {mergeMaps} from "../../flight/ground/page/merge.js";
+
+const near = (a, b, within = 1e-9) => assert.ok(Math.abs(a - b) <= within, `${a} is not ${b}`);
+
+test("the 95 % ellipse has half axes of 2.448 standard deviations", () => {
+  const {a, b, angle} = ellipse95([0.04, 0, 0.01]);
+  near(a, 2.4477 * 0.2, 1e-4);
+  near(b, 2.4477 * 0.1, 1e-4);
+  near(angle, 0);
+});
+
+test("the ellipse turns with its covariance", () => {
+  const c = Math.cos(0.5), s = Math.sin(0.5);
+  const turned = ellipse95([0.04 * c * c + 0.01 * s * s, 0.03 * s * c, 0.04 * s * s + 0.01 * c * c]);
+  near(turned.angle, 0.5, 1e-6);
+  near(turned.a / turned.b, 2, 1e-6);
+});
+
+test("without a covariance there is no ellipse", () => {
+  assert.equal(ellipse95(undefined), null);
+  assert.equal(ellipse95([0.01, null, 0.01]), null);
+  assert.equal(ellipse95([0.01, 0.05, 0.01]), null);  // no covariance: correlation of 5
+});
+
+test("whiskers end where the size's 95 % interval does", () => {
+  const all = whiskers95([4, 2], [0.1, 0.05]);
+  assert.equal(all.length, 4);
+  const [axis, sign, inner, outer] = all[0];
+  assert.deepEqual([axis, sign], [0, 1]);
+  near(2 * outer, 4 + 1.96 * 0.1);
+  near(2 * inner, 4 - 1.96 * 0.1);
+  assert.equal(whiskers95([4, 2], [0.1, undefined]).length, 2);
+  assert.equal(whiskers95([4, 2], undefined).length, 0);
+});
+
+test("points are read at their offsets", () => {
+  const data = Buffer.alloc(26);
+  [1, 2, 3].forEach((v, i) => data.writeFloatLE(v, 13 + 4 * i));
+  const cloud = {data: data.toString("base64"), point_stride: 13, fields: [{name: "x", offset: 0}, {name: "y", offset: 4}, {name: "z", offset: 8}, {name: "reflectivity", offset: 12}]};
+  assert.deepEqual([...pointsOf(cloud)], [0, 0, 0, 1, 2, 3]);
+});
+
+test("a hundred metres north are a hundred metres of latitude", () => {
+  const origin = {latitude_deg: 47, longitude_deg: 8, heading_deg: 0};
+  const [longitude, latitude] = toGeodetic(origin, [100, 0]);
+  near(longitude, 8);
+  near((latitude - 47) * 111_177, 100, 0.05);  // a degree of latitude at 47° is 111,177 m
+  const [east, same] = toGeodetic({...origin, heading_deg: 90}, [100, 0]);
+  near(same, 47);
+  near((east - 8) * 76_056, 100, 0.1);  // a degree of longitude at 47° is 76,056 m
+});
+
+test("a footprint turns with its heading", () => {
+  const [frontLeft] = footprint({position: [10, 0, 0], size: [4, 2, 1], heading_rad: Math.PI / 2});
+  near(frontLeft[0], 9);
+  near(frontLeft[1], 2);
+});
+
+test("scale bars are round", () => {
+  assert.deepEqual([7, 4, 1.9, 0.6, 120].map(roundLength), [5, 2, 1, 0.5, 100]);
+});
+
+const same = place => place;
+const car = (id, x, sd, name = "vehicle") => ({id, class: name, shape: "cuboid", position: [x, 0, 0], size: [4, 2, 1.5], sd: {size: [sd, sd]}});
+
+test("of an object of two robots the surer estimate stays", () => {
+  const merged = mergeMaps([{robot: "R1", objects: [car(1, 0, 0.2), car(2, 9, 0.1)], toMap: same}, {robot: "R2", objects: [car(1, 0.5, 0.1)], toMap: same}]);
+  assert.deepEqual(merged.map(({robot, robots}) => [robot, robots]), [["R2", ["R1", "R2"]], ["R1", ["R1"]]]);
+});
+
+test("another class, another place and one robot's two objects stay apart", () => {
+  const merged = mergeMaps([{robot: "R1", objects: [car(1, 0, 0.2), car(2, 1, 0.2)], toMap: same}, {robot: "R2", objects: [car(1, 0, 0.1, "pole"), car(2, 4, 0.1)], toMap: same}]);
+  assert.equal(merged.length, 4);
+});
+
+test("robots' frames are moved into one before they are compared", () => {
+  const merged = mergeMaps([{robot: "R1", objects: [car(1, 0, 0.2)], toMap: same}, {robot: "R2", objects: [car(1, 50, 0.1)], toMap: ([x, y, z]) => [x - 50, y, z]}]);
+  assert.equal(merged.length, 1);
+});
