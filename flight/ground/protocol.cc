@@ -90,12 +90,15 @@ ClientMessage unsubscribe(const Json& message) {
 }
 
 ClientMessage parse_text(std::span<const std::uint8_t> bytes) {
-  static const std::set<std::string> others = {
-      "advertise",           "unadvertise",
-      "getParameters",       "setParameters",
-      "fetchAsset",          "subscribeParameterUpdates",
-      "unsubscribeParameterUpdates", "subscribeConnectionGraph",
-      "unsubscribeConnectionGraph"};
+  static const std::set<std::string> others = {"advertise",
+                                               "unadvertise",
+                                               "getParameters",
+                                               "setParameters",
+                                               "fetchAsset",
+                                               "subscribeParameterUpdates",
+                                               "unsubscribeParameterUpdates",
+                                               "subscribeConnectionGraph",
+                                               "unsubscribeConnectionGraph"};
   const Json message = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (!message.is_object()) return Garbage{"no JSON object"};
   const auto op = message.find("op");
@@ -219,10 +222,8 @@ std::string status(int level, const std::string& text, const std::string& id) {
 }
 
 std::string service_failure(std::uint32_t service, std::uint32_t call, const std::string& text) {
-  return text_of({{"op", "serviceCallFailure"},
-                  {"serviceId", service},
-                  {"callId", call},
-                  {"message", text}});
+  return text_of(
+      {{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", text}});
 }
 
 std::string message_head(std::uint32_t subscription, Time time) {

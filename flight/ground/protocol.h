@@ -66,9 +66,9 @@ struct Service {
   std::string request, response;  ///< JSON schemas
 };
 struct ServerInfo {
-  std::string mode;        ///< "live" or "run"
-  std::string version;     ///< of the program
-  std::string session;     ///< another one each start
+  std::string mode;                ///< "live" or "run"
+  std::string version;             ///< of the program
+  std::string session;             ///< another one each start
   std::optional<Time> begin, end;  ///< of a run
 };
 

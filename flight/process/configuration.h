@@ -5,6 +5,7 @@
 #include "flight/base_station/config.h"
 #include "flight/bus/bus.h"
 #include "flight/command_line/configuration_source.h"
+#include "flight/ground/config.h"
 #include "flight/mavlink/config.h"
 #include "saker/autonomy/config.h"
 #include "saker/autonomy/team_config.h"
@@ -42,7 +43,7 @@ struct ExchangeConfig {
 };
 
 /// The whole configuration file: the autonomy's, the networks, the team's, the base station's, the
-/// bridge's to an autopilot and that of the fit of uncertainty models.
+/// bridge's to an autopilot, the ground's and that of the fit of uncertainty models.
 struct ProcessConfig {
   autonomy::Config autonomy;
   BusConfig bus;
@@ -50,6 +51,8 @@ struct ProcessConfig {
   autonomy::TeamConfig team;
   BaseConfig base;
   mavlink::MavlinkConfig mavlink;
+  ground::GroundConfig ground;
+  ground::SiteConfig site;
   uncertainty::FitConfig fit;
 
   template <class Visitor>
@@ -60,6 +63,8 @@ struct ProcessConfig {
     v.group("team", team, "what a robot makes of what others mapped");
     v.group("base", base, "the base station, saker-base");
     v.group("mavlink", mavlink, "the bridge to the autopilot, saker-mavlink");
+    v.group("ground", ground, "what people on the ground see, saker-ground");
+    v.group("site", site, "where on the Earth it flies");
     v.group("fit", fit, "of uncertainty models to samples, saker characterise fit");
   }
 };

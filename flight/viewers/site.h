@@ -1,11 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "saker/core/colour.h"
 #include "saker/motion/geofence.h"
 #include "saker/objects/geodesy.h"
 #include "saker/objects/object_map.h"
+
+namespace saker::autonomy {
+struct Config;
+}
 
 namespace saker::flight::viewers {
 
@@ -20,6 +25,10 @@ struct Site {
   double battery_return_share = 0.3, battery_land_share = 0.15;
   double land_after_s = 10;  ///< of holding
 };
+
+/// \param origin  as site.origin has it: latitude, longitude and, where it is not 90, heading of x;
+/// empty: none. Throws Error on what is no place.
+[[nodiscard]] Site site_of(const autonomy::Config& config, const std::vector<double>& origin);
 
 /// Colours that are told apart by nearly everybody.
 [[nodiscard]] core::Colour colour_of(const objects::ObjectClass& object_class);
