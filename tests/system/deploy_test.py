@@ -90,7 +90,7 @@ class Units(unittest.TestCase):
 
     def test_the_units_are_valid(self):
         units = sorted(str(p.relative_to(self.box.root)) for p in (self.box.root / "lib/systemd/system").glob("saker*"))
-        self.assertEqual(len(units), 5)
+        self.assertEqual(len(units), 6)
         self.assertEqual(self.run("systemd-analyze", "verify", *(f"/{unit}" for unit in units)).stdout, "")
         self.assertEqual(self.show(FLIGHT, "LimitRTPRIO"), "75")
         self.assertEqual(self.show(FLIGHT, "LimitMEMLOCK"), "infinity")
