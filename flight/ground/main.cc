@@ -64,7 +64,7 @@ int show_run(const ProcessConfig& config, const viewers::Site& site, const Groun
   const ServerConfig how = server_config(config.ground);
   const Server server(how, hub);
   say_address(server, how);
-  Service service;
+  flight::Service service;
   service.ready();
   constexpr std::chrono::milliseconds kPeriod{50};
   auto before = std::chrono::steady_clock::now();
@@ -98,7 +98,7 @@ int show_live(const ProcessConfig& config, viewers::Site site, const std::string
   const ServerConfig how = server_config(config.ground);
   const Server server(how, hub);
   say_address(server, how);
-  Service service;
+  flight::Service service;
   service.ready();
   while (stop_requests() == 0) {
     source.step();

@@ -129,10 +129,11 @@ void RunSource::say(bool jumped, const std::string& request) {
   hub_.publish(channel_, time, state_json().dump());
   hub_.tell_time(time);
   const bool ended = !now.playing && now.t_s >= now.end_s;
-  if (jumped || !request.empty() || ended)
+  if (jumped || !request.empty() || (ended && !said_ended_))
     hub_.tell_playback(now.playing ? PlaybackStatus::playing
                                    : (ended ? PlaybackStatus::ended : PlaybackStatus::paused),
                        time, now.speed, jumped, request);
+  said_ended_ = ended;
   since_said_s_ = 0;
 }
 
@@ -153,8 +154,8 @@ void RunSource::step(double passed_s) {
   }
   publisher_.publish_due(views_, state().t_s);
   since_said_s_ += passed_s;
-  if ((before.playing && since_said_s_ >= kSay_s) || (before.playing && !state().playing))
-    say(false, "");
+  const bool ended = before.playing && !state().playing;
+  if (since_said_s_ >= kSay_s || ended) say(false, "");
 }
 
 }  // namespace saker::flight::ground

@@ -55,6 +55,7 @@ class RunSource {
   State state_;
   std::vector<Wish> wishes_;
   double since_said_s_ = 0;
+  bool said_ended_ = false;
 };
 
 }  // namespace saker::flight::ground

@@ -8,6 +8,7 @@
 #include "flight/bus/messages.h"
 #include "flight/bus/object_messages.h"
 #include "flight/viewers/robot_view.h"
+#include "saker/autonomy/cause.h"
 
 /// Messages of a made robot, and what the ground knows of its site.
 namespace saker::flight::viewers::testing {
@@ -75,7 +76,7 @@ inline vehicle_state_t made_state() {
   message.attitude[3] = 1;
   message.height_m = 3;
   message.battery_share = 0.5f;
-  message.faults = vehicle_state_t::BATTERY_LOW | vehicle_state_t::NO_ODOMETRY;
+  message.faults = 8 | 1;  // BATTERY_LOW, NO_ODOMETRY
   return message;
 }
 
@@ -116,7 +117,8 @@ inline trajectory_t made_trajectory(std::int64_t id, int states) {
   message.step_s = 0.1;
   message.num_states = states;
   message.states.resize(static_cast<std::size_t>(states));
-  for (int i = 0; i < states; ++i) message.states[static_cast<std::size_t>(i)].position[0] = i;
+  for (int i = 0; i < states; ++i)
+    message.states[static_cast<std::size_t>(i)].position[0] = static_cast<float>(i);
   return message;
 }
 

@@ -190,7 +190,8 @@ TEST(Clouds, AScanIsThinnedAndInOdom) {
 TEST(Clouds, OccupancyIsTheNearestCellsAboutTheBody) {
   RobotView view = made_view();
   view.hear(made_odometry(1, 0, 0), 1);
-  occupancy::OccupancyGrid grid{.resolution_m = 1, .origin = {0, 0, 3}, .size = {40, 1, 1}};
+  occupancy::OccupancyGrid grid{
+      .resolution_m = 1, .origin = {0, 0, 3}, .size = {40, 1, 1}, .cells = {}};
   grid.cells.assign(40, occupancy::Cell::occupied);
   grid.cells[1] = occupancy::Cell::free;
   view.hear(grid, 1);

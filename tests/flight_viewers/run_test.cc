@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <lcm/lcm-cpp.hpp>
+
 #include "flight/bus/occupancy_messages.h"
 #include "flight/bus/scan_messages.h"
 #include "flight/run_files/detections_file.h"

@@ -43,7 +43,8 @@ RobotView full_view() {
   health.counters = {{"drops", 3}};
   EXPECT_TRUE(view.hear(health, 1));
   view.hear(made_scan(100), 1);
-  occupancy::OccupancyGrid grid{.resolution_m = 0.5, .origin = {0, 0, 2.5}, .size = {4, 1, 1}};
+  occupancy::OccupancyGrid grid{
+      .resolution_m = 0.5, .origin = {0, 0, 2.5}, .size = {4, 1, 1}, .cells = {}};
   grid.cells = {occupancy::Cell::occupied, occupancy::Cell::free, occupancy::Cell::unknown,
                 occupancy::Cell::occupied};
   view.hear(grid, 1);
