@@ -272,8 +272,12 @@ std::vector<Hub::SessionId> Hub::with_output() const {
 std::vector<Hub::SessionId> Hub::stuck(Steady::time_point now) {
   const std::lock_guard lock(mutex_);
   std::vector<SessionId> result;
-  for (const auto& [id, session] : sessions_) {
-    if (session.is_stuck(now)) result.push_back(id);
+  for (auto& [id, session] : sessions_) {
+    if (session.is_stuck(now)) {
+      result.push_back(id);
+    } else {
+      session.tell_drops(now);
+    }
   }
   counters_.stuck += static_cast<long>(result.size());
   return result;

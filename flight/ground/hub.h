@@ -71,7 +71,7 @@ class Hub {
                           Steady::time_point now);
   [[nodiscard]] std::optional<Session::Outgoing> take(SessionId session, Steady::time_point now);
   [[nodiscard]] std::vector<SessionId> with_output() const;
-  /// Those to be cut; each is told once.
+  /// Those to be cut; the others that are slow are told so. To be called once a second.
   [[nodiscard]] std::vector<SessionId> stuck(Steady::time_point now);
 
   [[nodiscard]] std::size_t sessions() const;

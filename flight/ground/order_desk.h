@@ -45,6 +45,9 @@ class OrderDesk {
   /// \param log  lines are added to this file; empty: none
   OrderDesk(std::unique_ptr<OrderLine> line, std::filesystem::path log);
 
+  /// Orders go by this line from now on: one that needs what is made after the desk.
+  void send_by(std::unique_ptr<OrderLine> line) { line_ = std::move(line); }
+
   /// Registers the service; the desk outlives the hub's clients.
   void offer_to(Hub& hub);
 

@@ -73,6 +73,14 @@ std::optional<Session::Outgoing> Session::take(Steady::time_point now) {
   return Outgoing{true, message_head(by_channel_.at(next.channel), next.time), next.json};
 }
 
+void Session::tell_drops(Steady::time_point now) {
+  if (dropped_ == told_drops_) return;
+  told_drops_ = dropped_;
+  answer(status(1, std::to_string(dropped_) + " messages were dropped: this connection is slow",
+                "drops"),
+         false, now);
+}
+
 bool Session::is_stuck(Steady::time_point now) const {
   if (answer_bytes_ > limits_.most_answer_bytes) return true;
   return has_output() && now - waits_since_ > limits_.most_wait;

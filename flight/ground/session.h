@@ -60,6 +60,8 @@ class Session {
   [[nodiscard]] const std::string& from() const { return from_; }
   [[nodiscard]] bool sdk() const { return sdk_; }
   [[nodiscard]] long dropped() const { return dropped_; }
+  /// Tells the client how many messages it did not get, where there are more than it was told of.
+  void tell_drops(Steady::time_point now);
   [[nodiscard]] std::size_t waiting_bytes() const { return bytes_ + answer_bytes_; }
 
  private:
@@ -81,7 +83,7 @@ class Session {
   std::deque<Message> messages_;
   std::map<std::uint64_t, std::size_t> waiting_;  ///< messages by channel
   std::size_t bytes_ = 0, answer_bytes_ = 0;
-  long dropped_ = 0;
+  long dropped_ = 0, told_drops_ = 0;
   Steady::time_point waits_since_{};
 };
 

@@ -64,6 +64,20 @@ TEST(Session, OfASlowClientTheOldestOfAChannelIsDropped) {
   EXPECT_EQ(drained(session), "ocde");
 }
 
+TEST(Session, ASlowClientIsToldOnceWhatItMissed) {
+  Session session("", false, small_limits());
+  session.subscribe({1, 10});
+  session.tell_drops(kStart);
+  EXPECT_FALSE(session.has_output());
+  for (int i = 0; i < 5; ++i) session.offer(10, 0, text(1), kStart);
+  session.tell_drops(kStart);
+  const auto first = session.take(kStart);
+  ASSERT_TRUE(first);
+  EXPECT_NE(first->body->find("2 messages were dropped"), std::string::npos);
+  session.tell_drops(kStart);
+  EXPECT_EQ(drained(session).size(), 3u);
+}
+
 TEST(Session, NeverHoldsMoreBytesThanItsCeiling) {
   Session session("", false, small_limits());
   session.subscribe({1, 10});
