@@ -53,9 +53,10 @@ ShownObject shown(const objects::MapObject& object, double t) {
 
 void FlownPath::add(const Eigen::Vector3d& p, double t) {
   if (!p.allFinite()) return;
-  const double step = points_.empty() ? 0 : (p - points_.back()).norm();
+  const double step = points_.empty() ? 0 : (p - last_).norm();
   if (!points_.empty() && step < spacing_m_) return;
   length_m_ += step;
+  last_ = p;
   points_.push_back(p);
   times_.push_back(t);
   if (points_.size() < kMost) return;

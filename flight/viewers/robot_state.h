@@ -60,6 +60,7 @@ class FlownPath {
  private:
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> times_;
+  Eigen::Vector3d last_ = Eigen::Vector3d::Constant(NAN);  // that was added, thinned since or not
   double spacing_m_ = 0.25;
   double length_m_ = 0;
 };

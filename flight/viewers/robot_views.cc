@@ -10,11 +10,6 @@ std::optional<Message> decoded(RobotViews::Bytes bytes) {
   return message;
 }
 
-template <class Message>
-bool is(const std::string& suffix) {
-  return suffix == kChannel<Message>.suffix;
-}
-
 }  // namespace
 
 RobotViews::RobotViews(std::shared_ptr<const Site> site, double lost_s)
@@ -38,36 +33,43 @@ bool RobotViews::hear_as(RobotView& view, Bytes bytes, double t) {
   return fine;
 }
 
+bool RobotViews::hear_scan(RobotView& view, Bytes bytes, double t) {
+  auto message = decoded<scan_t>(bytes);
+  ScanJoiner& joiner = scan_joiners_[view.state().robot];
+  auto scan = message ? joiner.add(std::move(*message)) : std::nullopt;
+  if (scan) view.hear(std::move(*scan), t);
+  return message && joiner.accepted();
+}
+
+bool RobotViews::hear_occupancy(RobotView& view, Bytes bytes, double t) {
+  auto message = decoded<occupancy_t>(bytes);
+  OccupancyJoiner& joiner = occupancy_joiners_[view.state().robot];
+  auto grid = message ? joiner.add(std::move(*message)) : std::nullopt;
+  if (grid) view.hear(std::move(*grid), t);
+  return message && joiner.accepted();
+}
+
 bool RobotViews::hear(const std::string& channel, Bytes bytes, double t) {
+  using Hear = bool (RobotViews::*)(RobotView&, Bytes, double);
+  static const std::map<std::string, Hear> kHear = {
+      {kChannel<vehicle_state_t>.suffix, &RobotViews::hear_as<vehicle_state_t>},
+      {kChannel<odometry_t>.suffix, &RobotViews::hear_as<odometry_t>},
+      {kChannel<trajectory_t>.suffix, &RobotViews::hear_as<trajectory_t>},
+      {kChannel<plan_t>.suffix, &RobotViews::hear_as<plan_t>},
+      {kChannel<mission_t>.suffix, &RobotViews::hear_as<mission_t>},
+      {kChannel<verdict_t>.suffix, &RobotViews::hear_as<verdict_t>},
+      {kChannel<detections_t>.suffix, &RobotViews::hear_as<detections_t>},
+      {kChannel<object_map_t>.suffix, &RobotViews::hear_as<object_map_t>},
+      {kChannel<health_t>.suffix, &RobotViews::hear_as<health_t>},
+      {kChannel<scan_t>.suffix, &RobotViews::hear_scan},
+      {kChannel<occupancy_t>.suffix, &RobotViews::hear_occupancy}};
   const std::string robot = robot_of(channel);
-  const std::string suffix = channel.substr(robot.size());
-  if (is<scan_t>(suffix) ? !scans_ : is<occupancy_t>(suffix) && !occupancy_) return true;
+  const auto at = kHear.find(channel.substr(robot.size()));
+  if (at == kHear.end()) return false;
+  if (at->second == &RobotViews::hear_scan && !scans_) return true;
+  if (at->second == &RobotViews::hear_occupancy && !occupancy_) return true;
   RobotView* const view = of(robot);
-  if (view == nullptr) return false;
-  if (is<vehicle_state_t>(suffix)) return hear_as<vehicle_state_t>(*view, bytes, t);
-  if (is<odometry_t>(suffix)) return hear_as<odometry_t>(*view, bytes, t);
-  if (is<trajectory_t>(suffix)) return hear_as<trajectory_t>(*view, bytes, t);
-  if (is<plan_t>(suffix)) return hear_as<plan_t>(*view, bytes, t);
-  if (is<mission_t>(suffix)) return hear_as<mission_t>(*view, bytes, t);
-  if (is<verdict_t>(suffix)) return hear_as<verdict_t>(*view, bytes, t);
-  if (is<detections_t>(suffix)) return hear_as<detections_t>(*view, bytes, t);
-  if (is<object_map_t>(suffix)) return hear_as<object_map_t>(*view, bytes, t);
-  if (is<health_t>(suffix)) return hear_as<health_t>(*view, bytes, t);
-  if (is<scan_t>(suffix)) {
-    auto message = decoded<scan_t>(bytes);
-    ScanJoiner& joiner = scan_joiners_[robot];
-    auto scan = message ? joiner.add(std::move(*message)) : std::nullopt;
-    if (scan) view->hear(std::move(*scan), t);
-    return message && joiner.accepted();
-  }
-  if (is<occupancy_t>(suffix)) {
-    auto message = decoded<occupancy_t>(bytes);
-    OccupancyJoiner& joiner = occupancy_joiners_[robot];
-    auto grid = message ? joiner.add(std::move(*message)) : std::nullopt;
-    if (grid) view->hear(std::move(*grid), t);
-    return message && joiner.accepted();
-  }
-  return false;
+  return view != nullptr && (this->*at->second)(*view, bytes, t);
 }
 
 void RobotViews::want_bulk(bool scans, bool occupancy) {

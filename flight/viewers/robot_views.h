@@ -38,6 +38,8 @@ class RobotViews {
  private:
   template <class Message>
   bool hear_as(RobotView& view, Bytes bytes, double t);
+  bool hear_scan(RobotView& view, Bytes bytes, double t);
+  bool hear_occupancy(RobotView& view, Bytes bytes, double t);
 
   std::shared_ptr<const Site> site_;
   double lost_s_;

@@ -178,6 +178,7 @@ TEST(LogRun, SaysWhatWasHeardWhenItWas) {
   EXPECT_TRUE(played.said("R1", Topic::objects, 1002).is_null());
   played.go(1005);
   EXPECT_EQ(played.said("R1", Topic::objects, 1005)["objects"].size(), 1u);
+  EXPECT_EQ(played.views.all().size(), 1u);  // NOT_A_ROBOTS is none
   played.run->rewind(played.views);
   played.go(1001.05);
   EXPECT_NEAR(played.said("R1", Topic::odometry, 1001)["position"][0].get<double>(), 1, 1e-6);
