@@ -5,6 +5,7 @@
 #include "flight/base_station/config.h"
 #include "flight/bus/bus.h"
 #include "flight/command_line/configuration_source.h"
+#include "flight/ground/config.h"
 #include "flight/link/config.h"
 #include "flight/mavlink/config.h"
 #include "saker/autonomy/config.h"
@@ -61,7 +62,7 @@ struct SensorLineConfig {
 };
 
 /// The whole configuration file: the autonomy's, the networks, the team's, the base station's, the
-/// bridge's to an autopilot and that of the fit of uncertainty models.
+/// bridge's to an autopilot, the ground's and that of the fit of uncertainty models.
 struct ProcessConfig {
   autonomy::Config autonomy;
   BusConfig bus;
@@ -71,6 +72,8 @@ struct ProcessConfig {
   BaseConfig base;
   LinkConfig link;
   mavlink::MavlinkConfig mavlink;
+  ground::GroundConfig ground;
+  ground::SiteConfig site;
   uncertainty::FitConfig fit;
 
   template <class Visitor>
@@ -83,6 +86,8 @@ struct ProcessConfig {
     v.group("base", base, "the base station, saker-base");
     v.group("link", link, "over the radio, between saker-link on a robot and saker-base");
     v.group("mavlink", mavlink, "the bridge to the autopilot, saker-mavlink");
+    v.group("ground", ground, "what people on the ground see, saker-ground");
+    v.group("site", site, "where on the Earth it flies");
     v.group("fit", fit, "of uncertainty models to samples, saker characterise fit");
   }
 };

@@ -129,6 +129,19 @@ void add_ouster(Seeds& seeds) {
   }
 }
 
+/// Each message behind a byte of its size, which is odd for binary ones.
+void add_ground(Seeds& seeds) {
+  const auto add = [&](const std::string& message, int binary) {
+    const Bytes bytes(message.begin(), message.end());
+    seeds.add("ground_message", behind(static_cast<std::uint8_t>(2 * bytes.size() + binary), bytes));
+  };
+  add(R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":3},{"id":1,"channelId":5}]})", 0);
+  add(R"({"op":"unsubscribe","subscriptionIds":[0]})", 0);
+  add(R"({"op":"getParameters","parameterNames":[],"id":"a"})", 0);
+  add({"\2\1\0\0\0\1\0\0\0\4\0\0\0json{\"t_s\":1}", 26}, 1);
+  add({"\3\0\0\0\200?\1\0\0\0\0\0\0\0\0\2\0\0\0id", 21}, 1);
+}
+
 }  // namespace
 }  // namespace saker::lidar::fuzz
 
@@ -142,4 +155,5 @@ int main(int count, char** words) {
   saker::lidar::fuzz::add_clouds(seeds);
   saker::lidar::fuzz::add_spinning(seeds);
   saker::lidar::fuzz::add_ouster(seeds);
+  saker::lidar::fuzz::add_ground(seeds);
 }

@@ -1,8 +1,8 @@
-#include "tools/saker/replay/detections_file.h"
+#include "flight/run_files/detections_file.h"
 
 #include <gtest/gtest.h>
 
-namespace saker::tools {
+namespace saker::flight {
 namespace {
 
 objects::Measurement car_whose_front_is_told_by(double front_log_odds) {
@@ -21,4 +21,4 @@ TEST(DetectionsFile, SaysWhichEndIsTheFrontWhereOneLooksMoreLikeIt) {
 }
 
 }  // namespace
-}  // namespace saker::tools
+}  // namespace saker::flight

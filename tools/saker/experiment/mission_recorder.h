@@ -12,7 +12,7 @@
 #include "saker/core/progress.h"
 #include "saker/simulation/vehicle/simulated_vehicle.h"
 #include "tools/saker/experiment/viewpoint_log.h"
-#include "tools/saker/replay/detections_file.h"
+#include "flight/run_files/detections_file.h"
 #include "tools/saker/replay/trajectory_truth.h"
 
 namespace saker::tools {
@@ -56,7 +56,7 @@ class MissionRecorder : public autonomy::MissionObserver {
   simulation::SimulatedVehicle& vehicle_;
   Time start_;
   objects::ObjectMap truth_;
-  DetectionsWriter detections_;
+  flight::DetectionsWriter detections_;
   ViewpointLog viewpoints_;
   std::shared_ptr<spdlog::logger> log_;
   core::Progress* progress_;

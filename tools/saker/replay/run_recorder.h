@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "saker/autonomy/lockstep.h"
-#include "tools/saker/replay/detections_file.h"
+#include "flight/run_files/detections_file.h"
 
 /// What a run over a recording leaves behind, as in docs/contract.md.
 namespace saker::tools {
@@ -39,7 +39,7 @@ class RunRecorder : public autonomy::LockstepObserver {
 
   std::filesystem::path out_;
   const objects::ClassTable& table_;
-  DetectionsWriter detections_;
+  flight::DetectionsWriter detections_;
   int count_ = 0;  // of detections
   std::uint32_t scans_ = 0;
   std::vector<SparsePoint> cloud_;

@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
+#include "flight/run_files/trajectory_file.h"
 #include "saker/autonomy/lockstep.h"
 #include "saker/objects/object_map.h"
 
 namespace saker::tools {
 
-struct StampedPose {
-  double t = 0;  ///< s
-  SE3 T_world_lidar = SE3::Identity();
-};
+using flight::pose_at;
+using flight::read_trajectory;
+using flight::StampedPose;
 
 /// What a simulator knows of a recording: the objects, and the trajectory where
 /// `trajectory_truth.txt` (TUM rows) lies beside truth.json.
@@ -21,12 +21,6 @@ struct Truth {
   objects::ObjectMap map;
   std::vector<StampedPose> trajectory;
 };
-
-/// TUM rows in time order; none where there is no such file. Throws Error on a malformed row.
-[[nodiscard]] std::vector<StampedPose> read_trajectory(const std::filesystem::path& file);
-
-/// The pose of that time, to 1 ms; null where there is none. `poses` in time order.
-[[nodiscard]] const StampedPose* pose_at(const std::vector<StampedPose>& poses, double t);
 
 /// Throws Error where a file is missing or malformed; a missing trajectory is none.
 [[nodiscard]] Truth read_truth(const std::filesystem::path& file, const objects::ClassTable& table);

@@ -1,4 +1,4 @@
-#include "tools/saker/replay/detections_file.h"
+#include "flight/run_files/detections_file.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "saker/core/error.h"
 #include "saker/core/files.h"
 
-namespace saker::tools {
+namespace saker::flight {
 namespace {
 
 using Json = nlohmann::json;
@@ -146,4 +146,4 @@ void DetectionsWriter::finish() {
   std::filesystem::rename(file_.string() + ".part", file_);
 }
 
-}  // namespace saker::tools
+}  // namespace saker::flight

@@ -8,7 +8,7 @@
 #include "saker/objects/class_table.h"
 #include "saker/objects/measurement.h"
 
-namespace saker::tools {
+namespace saker::flight {
 
 /// A line of detections.jsonl: time (s), class, class_probability, model in the lidar frame,
 /// covariance, points, moving, reflectivity (where the sensor says it), front_log_odds (where one
@@ -36,4 +36,4 @@ class DetectionsWriter {
 [[nodiscard]] std::vector<objects::Measurement> read_detections(const std::filesystem::path& file,
                                                                 const objects::ClassTable& table);
 
-}  // namespace saker::tools
+}  // namespace saker::flight

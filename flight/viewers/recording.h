@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "flight/viewers/mcap_writer.h"
+#include "flight/viewers/robot_views.h"
+#include "flight/viewers/run.h"
+
+/// What viewers are told, in an MCAP file: the same topics and schemas as on the WebSocket, and
+/// scans as `/R1/scan` (sensor_msgs/PointCloud2 in CDR), which `saker replay` reads.
+namespace saker::flight::viewers {
+
+class Recording {
+ public:
+  explicit Recording(const std::filesystem::path& file) : writer_(file) {}
+
+  void add(const std::string& robot, const Said& said);
+  /// The newest scan, where it was not added before.
+  void add_scan(const RobotState& state);
+  /// What is due of all views, and their scans.
+  void add_due(RobotViews& views, double t);
+  void finish() { writer_.finish(); }
+
+  [[nodiscard]] std::uint64_t messages() const { return writer_.messages(); }
+
+ private:
+  McapWriter writer_;
+  std::map<std::string, std::uint16_t> channels_;  ///< by topic
+  std::map<std::string, double> scans_;            ///< by robot: t of the one that was added last
+};
+
+/// A whole run, in steps of 50 ms. \return messages
+std::uint64_t record_run(Run& run, const Site& site, const std::filesystem::path& file);
+
+}  // namespace saker::flight::viewers

@@ -1,0 +1,86 @@
+#include "flight/viewers/robot_views.h"
+
+namespace saker::flight::viewers {
+namespace {
+
+template <class Message>
+std::optional<Message> decoded(RobotViews::Bytes bytes) {
+  Message message{};
+  if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) return std::nullopt;
+  return message;
+}
+
+}  // namespace
+
+RobotViews::RobotViews(std::shared_ptr<const Site> site, double lost_s)
+    : site_(std::move(site)), lost_s_(lost_s) {}
+
+RobotView* RobotViews::of(const std::string& robot) { return add(robot, site_); }
+
+RobotView* RobotViews::add(const std::string& robot, std::shared_ptr<const Site> site) {
+  const auto at = views_.find(robot);
+  if (at != views_.end()) return &at->second;
+  if (views_.size() == kMostRobots) return nullptr;
+  const core::Colour colour = colour_of_robot(views_.size());
+  return &views_.try_emplace(robot, robot, colour, std::move(site), lost_s_).first->second;
+}
+
+template <class Message>
+bool RobotViews::hear_as(RobotView& view, Bytes bytes, double t) {
+  const auto message = decoded<Message>(bytes);
+  const bool fine = message && view.hear(*message, t);
+  if (!fine) view.count_malformed();
+  return fine;
+}
+
+bool RobotViews::hear_scan(RobotView& view, Bytes bytes, double t) {
+  auto message = decoded<scan_t>(bytes);
+  ScanJoiner& joiner = scan_joiners_[view.state().robot];
+  auto scan = message ? joiner.add(std::move(*message)) : std::nullopt;
+  if (scan) view.hear(std::move(*scan), t);
+  return message && joiner.accepted();
+}
+
+bool RobotViews::hear_occupancy(RobotView& view, Bytes bytes, double t) {
+  auto message = decoded<occupancy_t>(bytes);
+  OccupancyJoiner& joiner = occupancy_joiners_[view.state().robot];
+  auto grid = message ? joiner.add(std::move(*message)) : std::nullopt;
+  if (grid) view.hear(std::move(*grid), t);
+  return message && joiner.accepted();
+}
+
+bool RobotViews::hear(const std::string& channel, Bytes bytes, double t) {
+  using Hear = bool (RobotViews::*)(RobotView&, Bytes, double);
+  static const std::map<std::string, Hear> kHear = {
+      {kChannel<vehicle_state_t>.suffix, &RobotViews::hear_as<vehicle_state_t>},
+      {kChannel<odometry_t>.suffix, &RobotViews::hear_as<odometry_t>},
+      {kChannel<trajectory_t>.suffix, &RobotViews::hear_as<trajectory_t>},
+      {kChannel<plan_t>.suffix, &RobotViews::hear_as<plan_t>},
+      {kChannel<mission_t>.suffix, &RobotViews::hear_as<mission_t>},
+      {kChannel<verdict_t>.suffix, &RobotViews::hear_as<verdict_t>},
+      {kChannel<detections_t>.suffix, &RobotViews::hear_as<detections_t>},
+      {kChannel<object_map_t>.suffix, &RobotViews::hear_as<object_map_t>},
+      {kChannel<health_t>.suffix, &RobotViews::hear_as<health_t>},
+      {kChannel<scan_t>.suffix, &RobotViews::hear_scan},
+      {kChannel<occupancy_t>.suffix, &RobotViews::hear_occupancy}};
+  const std::string robot = robot_of(channel);
+  const auto at = kHear.find(channel.substr(robot.size()));
+  if (at == kHear.end()) return false;
+  if (at->second == &RobotViews::hear_scan && !scans_) return true;
+  if (at->second == &RobotViews::hear_occupancy && !occupancy_) return true;
+  RobotView* const view = of(robot);
+  return view != nullptr && (this->*at->second)(*view, bytes, t);
+}
+
+void RobotViews::want_bulk(bool scans, bool occupancy) {
+  scans_ = scans;
+  occupancy_ = occupancy;
+}
+
+void RobotViews::clear() {
+  views_.clear();
+  scan_joiners_.clear();
+  occupancy_joiners_.clear();
+}
+
+}  // namespace saker::flight::viewers

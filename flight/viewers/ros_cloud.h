@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "saker/autonomy/plant.h"
+
+/// Scans as other programs of robots read them: sensor_msgs/PointCloud2 of ROS 2 in CDR (little
+/// endian), with the fields x, y, z and intensity, float32.
+namespace saker::flight::viewers {
+
+inline constexpr const char* kRosCloudType = "sensor_msgs/msg/PointCloud2";
+/// The type's definition with all that it uses, as MCAP's `ros2msg` wants it.
+extern const char* const kRosCloudDefinition;
+
+/// Points that were hit, in the lidar frame; beams without an answer are left out.
+[[nodiscard]] std::string ros_cloud(const autonomy::RegisteredScan& scan,
+                                    const std::string& frame_id);
+
+}  // namespace saker::flight::viewers

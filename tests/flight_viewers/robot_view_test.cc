@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include "flight_viewers/made_robot.h"
+
+namespace saker::flight::viewers {
+namespace {
+
+using namespace testing;
+
+std::vector<int> ids(const Json& objects_message) {
+  std::vector<int> found;
+  for (const Json& object : objects_message.at("objects")) found.push_back(object.at("id"));
+  return found;
+}
+
+TEST(RobotView, KeepsTheWholeMapOfWhatIsSaidInTurns) {
+  RobotView view = made_view();
+  view.hear(made_objects({made_vehicle(1, 0, 0)}), 1);
+  view.hear(made_objects({made_vehicle(2, 9, 0), made_pole(5, 1, 1)}), 2);
+  const Json said = *view.message(Topic::objects, 4);
+  EXPECT_EQ(ids(said), (std::vector{1, 2, 5}));
+  EXPECT_EQ(said.at("objects")[0].at("heard_s"), 3);
+  EXPECT_EQ(said.at("objects")[1].at("heard_s"), 2);
+}
+
+TEST(RobotView, AnObjectThatIsGoneIsGone) {
+  RobotView view = made_view();
+  view.hear(made_objects({made_vehicle(1, 0, 0), made_vehicle(2, 9, 0)}), 1);
+  object_map_t farewell = made_objects({made_vehicle(1, 0, 0)});
+  farewell.objects[0].observations = 0;
+  EXPECT_TRUE(view.hear(farewell, 2));
+  EXPECT_EQ(ids(*view.message(Topic::objects, 2)), std::vector{2});
+}
+
+TEST(RobotView, WhatIsNoObjectIsRefusedAndTheOthersStay) {
+  RobotView view = made_view();
+  object_map_t message = made_objects({made_vehicle(1, 0, 0), made_vehicle(2, 9, 0)});
+  message.objects[0].orientation[3] = 7;
+  EXPECT_FALSE(view.hear(message, 1));
+  EXPECT_EQ(ids(*view.message(Topic::objects, 1)), std::vector{2});
+}
+
+TEST(RobotView, SaysATopicNoFasterThanItsRate) {
+  RobotView view = made_view();
+  int said = 0;
+  for (int i = 0; i < 200; ++i) {  // 2 s at 100 Hz, looked at as often
+    view.hear(made_odometry(10000 * i, 0.01 * i, 0), 0.01 * i);
+    said += static_cast<int>(of_topic(view.take_due(0.01 * i, none), Topic::odometry).size());
+  }
+  EXPECT_GE(said, 18);
+  EXPECT_LE(said, 23);
+}
+
+TEST(RobotView, WhatNobodyWantsIsNotMadeButKeptTopicsAre) {
+  RobotView view = made_view();
+  view.hear(made_odometry(1, 0, 0), 1);
+  const auto said = view.take_due(1, none);
+  EXPECT_TRUE(of_topic(said, Topic::scene).empty());
+  EXPECT_TRUE(of_topic(said, Topic::transforms).empty());
+  EXPECT_EQ(of_topic(said, Topic::odometry).size(), 1u);
+  EXPECT_EQ(of_topic(view.take_due(1.01, all), Topic::transforms).size(), 1u);
+}
+
+TEST(RobotView, EveryTransitionOfTheMissionIsSaidAndLoggedOnce) {
+  RobotView view = made_view();
+  view.hear(made_mission("tour", autonomy::Cause::took_off, "3 m"), 1);
+  view.hear(made_mission("tour", autonomy::Cause::took_off, "3 m"), 2);
+  view.hear(made_mission("hold", autonomy::Cause::lidar_silent, "no scan"), 3);
+  const auto said = view.take_due(3, none);
+  EXPECT_EQ(of_topic(said, Topic::mission).size(), 3u);
+  const auto log = of_topic(said, Topic::log);
+  ASSERT_EQ(log.size(), 2u);
+  EXPECT_EQ(log[0].at("level"), static_cast<int>(LogLevel::info));
+  EXPECT_EQ(log[1].at("level"), static_cast<int>(LogLevel::warning));
+}
+
+std::string state_of(const RobotView& view, int target) {
+  return view.state().targets.at(target).state;
+}
+
+TEST(RobotView, TargetsArePlannedThenNextThenLeft) {
+  RobotView view = made_view();
+  view.hear(made_plan({4, 7, 9}, 1), 1);
+  EXPECT_EQ(state_of(view, 4), "next");
+  EXPECT_EQ(state_of(view, 9), "planned");
+  EXPECT_EQ(view.state().targets.at(9).tour, 2);
+  view.hear(made_plan({7, 9}, 2), 2);
+  EXPECT_EQ(state_of(view, 4), "left");
+  EXPECT_EQ(state_of(view, 7), "next");
+  view.hear(made_plan({}, 2), 3);  // while it holds nothing is planned
+  EXPECT_EQ(state_of(view, 9), "planned");
+  view.hear(made_mission("return", autonomy::Cause::tour_complete, ""), 4);
+  EXPECT_EQ(state_of(view, 9), "left");
+}
+
+TEST(RobotView, GainCountsOncePerCommittedTrajectory) {
+  RobotView view = made_view();
+  view.hear(made_plan({4}, 1), 1);
+  view.hear(made_plan({4}, 1), 2);
+  view.hear(made_plan({4}, 2), 3);
+  EXPECT_DOUBLE_EQ(view.state().gain_nat, 3);
+}
+
+TEST(RobotView, AClockThatBeginsAnewIsANewFlight) {
+  RobotView view = made_view();
+  view.hear(made_odometry(60000000, 1, 1), 60);
+  view.hear(made_objects({made_vehicle(1, 0, 0)}), 60);
+  view.hear(made_odometry(1000, 0, 0), 61);
+  EXPECT_TRUE(view.state().objects.empty());
+  EXPECT_EQ(view.state().path.points().size(), 1u);
+  EXPECT_TRUE(view.state().heard.contains("OBJECTS"));  // the link was there before
+}
+
+TEST(RobotView, ALostLinkIsSaidAtOnceAndWhenItIsBack) {
+  RobotView view = made_view(made_site(), 1.5);
+  view.hear(made_state(), 10);
+  EXPECT_EQ(of_topic(view.take_due(10.1, none), Topic::link).at(0).at("lost"), false);
+  EXPECT_TRUE(of_topic(view.take_due(10.2, none), Topic::link).empty());
+  const auto lost = view.take_due(11.6, none);
+  EXPECT_EQ(of_topic(lost, Topic::link).at(0).at("lost"), true);
+  EXPECT_EQ(of_topic(lost, Topic::log).at(0).at("level"), static_cast<int>(LogLevel::error));
+  view.hear(made_state(), 11.65);
+  const auto back = view.take_due(11.7, none);
+  EXPECT_EQ(of_topic(back, Topic::link).at(0).at("lost"), false);
+  EXPECT_EQ(of_topic(back, Topic::log).size(), 1u);
+}
+
+TEST(RobotView, AfterAJumpAllThatIsKnownIsSaidAgain) {
+  RobotView view = made_view();
+  view.hear(made_state(), 5);
+  view.hear(made_mission("tour", autonomy::Cause::took_off, ""), 5);
+  static_cast<void>(view.take_due(5, none));
+  EXPECT_TRUE(view.take_due(5.05, none).empty());
+  view.say_again();
+  const auto again = view.take_due(2, none);  // time may go back
+  EXPECT_EQ(of_topic(again, Topic::state).size(), 1u);
+  EXPECT_EQ(of_topic(again, Topic::mission).size(), 1u);
+}
+
+TEST(RobotView, NoMessageOfNonsenseIsTaken) {
+  RobotView view = made_view();
+  odometry_t odometry = made_odometry(1, 0, 0);
+  odometry.orientation[3] = 0;
+  EXPECT_FALSE(view.hear(odometry, 1));
+  vehicle_state_t state = made_state();
+  state.mode = 77;
+  EXPECT_FALSE(view.hear(state, 1));
+  EXPECT_EQ(view.message(Topic::odometry, 1), std::nullopt);
+  EXPECT_EQ(view.message(Topic::state, 1), std::nullopt);
+}
+
+}  // namespace
+}  // namespace saker::flight::viewers
