@@ -137,11 +137,11 @@ TEST_F(Watched, WhoLandsNeedNotRest) {
 }
 
 TEST_F(Watched, BeyondTheFenceItMayBrake) {
-  truth.T_world_body.translation() = {20.9, 0, 3};
+  truth.T_world_body.translation() << 20.9, 0, 3;
   truth.velocity = {1, 0, 0};
   step(1);
   EXPECT_FALSE(broken(Invariant::in_fence));
-  truth.T_world_body.translation() = {22, 0, 3};
+  truth.T_world_body.translation() << 22, 0, 3;
   step(2);
   EXPECT_TRUE(broken(Invariant::in_fence));
 }
@@ -151,11 +151,11 @@ class WatchedOdometry : public Watched {
   /// Flies with 1 m/s along x; odometry says more by `off`(t).
   void fly_with(double to_s, const std::function<double(double)>& off) {
     for (double t_s = 0; t_s < to_s; t_s += 0.01) {
-      truth.T_world_body.translation() = {t_s, 0, 3};
+      truth.T_world_body.translation() << t_s, 0, 3;
       step(t_s);
       VehicleOdometry odometry;
       odometry.stamp = truth.stamp;
-      odometry.T_odom_body.translation() = {t_s + off(t_s), 0, 3};
+      odometry.T_odom_body.translation() << t_s + off(t_s), 0, 3;
       odometry.covariance = Matrix6d::Identity() * kSd * kSd;
       odometry.status = status;
       watch.on_odometry(odometry);
