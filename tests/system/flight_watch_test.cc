@@ -69,6 +69,16 @@ TEST_F(Watched, ALorryThatDrivesIntoAVehicleAtRestIsUnavoidable) {
   EXPECT_FALSE(broken(Invariant::no_collision));
 }
 
+TEST_F(Watched, ALorryThatPushesAVehicleAwayCameToIt) {
+  schedule = {fault(FaultKind::lorry, 0, 3)};
+  fly(0, 3.8);
+  truth.velocity = {4, 0, -7};
+  fly(3.8, 4);
+  truth.collisions = 1;
+  step(4);
+  EXPECT_FALSE(broken(Invariant::no_collision));
+}
+
 TEST_F(Watched, AVehicleThatFliesIntoALorryCouldHaveBraked) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
   truth.velocity = {1.5, 0, 0};

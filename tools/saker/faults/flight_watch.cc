@@ -18,6 +18,7 @@ namespace {
 constexpr double kSettled_s = 2;
 constexpr double kAtRest_mps = 0.3;  // in turbulence
 constexpr double kStoodStill_mps = 0.5;
+constexpr std::size_t kSpeeds = 100;       // a second of steps
 constexpr double kBlindDescent_mps = 0.8;  // over ground, blown by the wind
 constexpr double kReaction_s = 0.6;  // a scan, a verdict, a step of guidance, and the vehicle's lag
 constexpr double kHardGust_mps = 5;
@@ -67,6 +68,8 @@ void FlightWatch::on_step(const simulation::VehicleTruth& truth, const VehicleSt
     without_pose_s_ = NAN;
   else if (std::isnan(without_pose_s_))
     without_pose_s_ = now_s_;
+  speeds_.push_back(truth.velocity.head<2>().norm());
+  if (speeds_.size() > kSpeeds) speeds_.pop_front();
   watch_collisions(truth, state);
   watch_rest(truth, state);
   watch_fence(truth, state);
@@ -100,17 +103,17 @@ void FlightWatch::watch_collisions(const simulation::VehicleTruth& truth,
 bool FlightWatch::unavoidable(const simulation::VehicleTruth& truth,
                               const VehicleState& state) const {
   const double speed = truth.velocity.head<2>().norm();
-  if (came_into_the_way(speed)) return true;
+  if (came_into_the_way()) return true;
   if (state.mode == VehicleMode::descend && speed < kBlindDescent_mps) return true;
   return blown();
 }
 
 /// Something that came to a vehicle at rest, or stood there too late to brake for it.
-bool FlightWatch::came_into_the_way(double speed) const {
+bool FlightWatch::came_into_the_way() const {
   for (const Fault& fault : schedule_) {
     const bool mover = fault.kind == FaultKind::person || fault.kind == FaultKind::lorry;
     if ((!mover && fault.kind != FaultKind::wall) || now_s_ < fault.at_s) continue;
-    if (mover && speed < kStoodStill_mps) return true;
+    if (mover && speeds_.front() < kStoodStill_mps) return true;
     const double fastest = limits_.max_speed + (mover ? fault.strength : 0);
     const double needed_m =
         kBody_m + fastest * kReaction_s + fastest * fastest / (2 * limits_.max_acceleration);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,7 +39,8 @@ struct Breach {
 /// motion's sd is that of both ends together. Off by more than 5 sd at once, or by more than 3 sd
 /// for a second, is a breach while the status is ok.
 ///
-/// A collision is unavoidable where something came to a vehicle that moved by less than 0.5 m/s;
+/// A collision is unavoidable where something came to a vehicle that moved by less than 0.5 m/s a
+/// second before (it is pushed then);
 /// where a thing appeared within the distance that it takes to see it, think and brake; where the
 /// vehicle came down without a pose, which the flight controller does where it is, at less than
 /// 0.8 m/s over ground; and where a gust of more than 5 m/s blew within the last second.
@@ -73,7 +75,7 @@ class FlightWatch : public autonomy::MissionObserver {
   void watch_memory();
   [[nodiscard]] bool unavoidable(const simulation::VehicleTruth& truth,
                                  const VehicleState& state) const;
-  [[nodiscard]] bool came_into_the_way(double speed) const;
+  [[nodiscard]] bool came_into_the_way() const;
   [[nodiscard]] bool blown() const;
   void broken(Invariant invariant, std::string text);
 
@@ -84,6 +86,7 @@ class FlightWatch : public autonomy::MissionObserver {
   double now_s_ = 0;
   simulation::VehicleTruth truth_;
   int collisions_ = 0;
+  std::deque<double> speeds_;    // m/s over ground, of the last second
   double must_rest_s_ = NAN;     // when it was said
   double without_pose_s_ = NAN;  // since when it comes down by itself
   std::vector<Pose> poses_;      // of the last seconds, the oldest first
