@@ -35,7 +35,6 @@ class Text {
     size_ += more;
     return *this;
   }
-  Text& operator+=(std::string_view text) { return append(text); }
   Text& operator+=(const Text& text) { return append(text.view()); }
   void clear() { size_ = 0; }
 
