@@ -52,7 +52,6 @@ struct Blackboard {
   BoundedQueue<lidar::ImuSample> imu{1024};
   std::atomic<Time> newest_scan = 0;
   std::atomic<Time> newest_registered = 0;
-  std::atomic<Time> contact = 0;  // the last one felt
 
   // From ingestion to pose, segmentation and mapping; from segmentation to mapping.
   BoundedQueue<PoseFix> pose_fixes{32};

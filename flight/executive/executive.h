@@ -22,7 +22,6 @@
 #include "flight/process/configuration.h"
 #include "flight/process/service.h"
 #include "saker/autonomy/body_pose.h"
-#include "saker/autonomy/contact.h"
 #include "saker/autonomy/supervisor.h"
 #include "saker/core/timings.h"
 
@@ -134,7 +133,6 @@ class Executive {
   MapSender map_sender_;
   int map_cycles_ = 0;
   autonomy::BodyPose body_pose_;
-  autonomy::Contact contact_;
   autonomy::Planning planning_;
   std::vector<std::pair<Time, active::Viewpoint>> viewpoints_;  // flown to, in their order
   std::shared_ptr<const autonomy::Planning::Output> newest_plan_, plan_before_;

@@ -16,10 +16,7 @@ constexpr std::size_t kMostViewpoints = 10000;  // of a flight: some tens
 
 LoopStatus Executive::pose() {
   const Time now = board_.clock.now();
-  for (const lidar::ImuSample& sample : board_.imu.take_all()) {
-    body_pose_.add(sample, now);
-    if (contact_.add(sample)) board_.contact = sample.stamp;
-  }
+  for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample, now);
   for (const PoseFix& fix : board_.pose_fixes.take_all()) {
     body_pose_.correct(fix.stamp, fix.T_odom_lidar, fix.covariance);
   }

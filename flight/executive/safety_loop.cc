@@ -58,9 +58,6 @@ autonomy::SupervisorInput SafetyLoop::seen(Time now) {
   while (auto ack = board_.acks.pop()) input.acks.push_back(std::move(*ack));
   input.has_targets = parts_.has_targets;
   input.land_ordered = parts_.land_ordered();
-  input.contact = board_.contact;
-  // Before take-off alone: whoever lets go of a block last frees it.
-  if (!input.vehicle.armed) input.grid = board_.grid.latest();
   if (board_.operator_orders.size() > 0) input.orders = board_.operator_orders.take_all();
   return input;
 }

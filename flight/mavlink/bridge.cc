@@ -372,7 +372,7 @@ std::optional<VehicleState> Bridge::vehicle_state(Time now) const {
   if (!odometry_.good(now)) state.faults |= kNoOdometry;
   if (s.estimator_flags && !state_.estimator_good()) state.faults |= kOdometryRejected;
   if (setpoints_.stopped()) state.faults |= kSetpointExpired;
-  if (!(s.battery_share >= config_.battery_low)) state.faults |= kBatteryLow;
+  if (s.battery_share < config_.battery_low) state.faults |= kBatteryLow;
   return state;
 }
 

@@ -1,6 +1,5 @@
 #include "saker/autonomy/body_pose.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -82,22 +81,13 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.angular_velocity = T_body_lidar_.linear() * lidar.rate();
   const Matrix6d to_body = core::se3_adjoint(T_body_lidar_);
   result.covariance = to_body * lidar.pose_covariance() * to_body.transpose();
-  result.status =
-      status(to_seconds(now - scan_.stamp()), to_seconds(now - newest), result.covariance);
+  const double age = to_seconds(now - scan_.stamp());
+  const double silent = to_seconds(now - newest);
+  const bool fresh = age <= config_.fresh_s && std::abs(silent) <= kLongestAhead_s;
+  result.status = fresh                   ? VehicleOdometryStatus::ok
+                  : age <= config_.lost_s ? VehicleOdometryStatus::predicted
+                                          : VehicleOdometryStatus::lost;
   return result;
-}
-
-VehicleOdometryStatus BodyPose::status(double age_s, double silent_s,
-                                       const Matrix6d& covariance) const {
-  if (age_s <= config_.fresh_s && std::abs(silent_s) <= kLongestAhead_s)
-    return VehicleOdometryStatus::ok;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance.bottomRightCorner<3, 3>(),
-                                                            Eigen::EigenvaluesOnly);
-  const bool sure =
-      axes.eigenvalues().maxCoeff() <= config_.lost_sd_m * config_.lost_sd_m;  // not of a NaN
-  const double longest_s = silent_s <= kLongestAhead_s ? config_.lost_s : config_.lost_blind_s;
-  return sure && age_s <= longest_s ? VehicleOdometryStatus::predicted
-                                    : VehicleOdometryStatus::lost;
 }
 
 }  // namespace saker::autonomy

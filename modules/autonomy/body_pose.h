@@ -15,16 +15,13 @@
 /// extrinsics, its velocity by the lever. Method: the error-state Kalman filter of
 /// `odometry/inertial_filter.h` from the newest registered scan on; a scan is weighed against the
 /// inertial unit by both covariances, however long ago the one before was: milliseconds (what came
-/// of a revolution before the network fell silent) or half a second. Without scans it coasts on the
-/// inertial unit as long as the stated covariance allows, then it is lost. Cost: microseconds a
-/// sample; a correction integrates the samples since its stamp again.
+/// of a revolution before the network fell silent) or half a second. Cost: microseconds a sample; a
+/// correction integrates the samples since its stamp again.
 namespace saker::autonomy {
 
 struct BodyPoseConfig {
   double fresh_s = 0.4;
-  double lost_s = 6.0;
-  double lost_sd_m = 0.5;
-  double lost_blind_s = 1.0;
+  double lost_s = 1.0;
   double jump_m = 1.0;
   double jump_deg = 20;
   double sd_position_m = 0.03;
@@ -34,13 +31,7 @@ struct BodyPoseConfig {
   void visit(Visitor& v) {
     v.field("fresh_s", fresh_s, {0.1, 5}, "s",
             "age of the newest registered scan up to which the pose is ok: three scans, one late");
-    v.field("lost_s", lost_s, {0.2, 10}, "s",
-            "age beyond which it is lost, however sure the inertial unit is of itself");
-    v.field("lost_sd_m", lost_sd_m, {0.05, 10}, "m",
-            "sd of the place, along the axis that is known least, beyond which it is lost: what a "
-            "vehicle that hovers keeps from obstacles");
-    v.field("lost_blind_s", lost_blind_s, {0.2, 10}, "s",
-            "age beyond which it is lost while the inertial unit is silent, too");
+    v.field("lost_s", lost_s, {0.2, 10}, "s", "age beyond which it is lost");
     v.field("jump_m", jump_m, {0.05, 20}, "m",
             "off the prediction: odometry began anew; taken over, reset counted");
     v.field("jump_deg", jump_deg, {1, 180}, "°", "the same for attitude");
@@ -71,8 +62,6 @@ class BodyPose {
 
  private:
   [[nodiscard]] bool jumped(const SE3& predicted, const SE3& measured) const;
-  [[nodiscard]] VehicleOdometryStatus status(double age_s, double silent_s,
-                                             const Matrix6d& covariance) const;
 
   BodyPoseConfig config_;
   SE3 T_body_lidar_;

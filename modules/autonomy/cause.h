@@ -18,12 +18,9 @@ enum class Cause {
   outside_geofence,    ///< take-off place or vehicle
   battery_low,         ///< enough for the way back
   battery_empty,       ///< enough to land
-  battery_unknown,     ///< the vehicle does not say its charge
   no_targets,          ///< no prior map, or no target in it
-  column_not_free,     ///< over the place of take-off: something, or not seen and not stated free
   nothing_classified,  ///< segmentation works, but gives next to no point a class
-  collision,           ///< the accelerometer felt one
-  vehicle_unclear,     ///< its state has what is no number, or what nobody knows
+  collision,           ///< the flight controller felt one
   vehicle_descends,    ///< the flight controller trusts no odometry and comes down by itself
   off_course,          ///< the vehicle does not follow its setpoints
   stopped,             ///< guidance stops on the way: the verdict, or there is none
@@ -35,7 +32,6 @@ enum class Cause {
   tour_deadline,
   return_deadline,
   landing_deadline,
-  landing_place,  ///< none that is fit to land on was found
   hold_deadline,
   too_many_holds,
   // Planning.

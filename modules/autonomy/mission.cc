@@ -187,31 +187,10 @@ void Mission::return_home(const MissionInput& input) {
   } else if (plan.order == PlanningOrder::home && plan.status == PlanningStatus::home_unreachable) {
     fail(Cause::home_unreachable);
     land(Cause::home_unreachable, "lands here: " + plan.text);
-  } else if (plan.order == PlanningOrder::home && plan.status == PlanningStatus::no_landing_place) {
-    no_landing_place(plan);
   } else if (now_ - return_begun_ > from_seconds(config_.return_s)) {
     fail(Cause::return_deadline);
-    land(Cause::return_deadline,
-         core::text("not home after {:g} s", config_.return_s) + place_text());
+    land(Cause::return_deadline, core::text("not home after {:g} s", config_.return_s));
   }
-}
-
-/// Hovers, and says so; then what is there has to do.
-void Mission::no_landing_place(const PlanningReport& plan) {
-  no_place_ = plan.text;
-  if (no_place_since_ == 0) {
-    no_place_since_ = now_;
-    say(Cause::landing_place, no_place_ + "; hovers");
-  } else if (now_ - no_place_since_ > from_seconds(config_.landing_wait_s)) {
-    fail(Cause::landing_place);
-    land(Cause::landing_place,
-         core::text("hovered for {:g} s", config_.landing_wait_s) + place_text());
-  }
-}
-
-/// What is said where it lands all the same.
-core::Text Mission::place_text() const {
-  return no_place_since_ == 0 ? core::Text() : core::Text("; lands all the same: ") + no_place_;
 }
 
 /// Safety says when it ends, or an order does.
@@ -235,7 +214,7 @@ bool Mission::obey_safety(const MissionInput& input) {
   if (phase_ == MissionPhase::landing) return false;
   if (safety.action >= SafetyAction::land) {
     fail(safety.cause);
-    land(safety.cause, safety.text + place_text());
+    land(safety.cause, safety.text);
   } else if (input.land_ordered) {
     fail(Cause::ordered);
     land(Cause::ordered, "ordered to land");

@@ -44,10 +44,6 @@ struct MissionConfig {
   double tour_s = 1500;
   double return_s = 240;
   double landing_s = 60;
-  double landing_wait_s = 30;
-  bool column_free = false;
-  double column_radius_m = 0.65;
-  double column_seen_share = 0.95;
   double gone_s = 3;
   int most_holds = 10;
   CommandConfig command;
@@ -72,17 +68,6 @@ struct MissionConfig {
               "The way home may take this time, then it lands where it is.");
     v.setting("landing_s", landing_s, {5, 600}, "s",
               "It must touch down within this time, else the command is repeated.");
-    v.setting("landing_wait_s", landing_wait_s, {0, 600}, "s",
-              "Where no place near home is fit to land on it hovers for so long, then lands on the "
-              "least bad one.");
-    v.setting(
-        "column_free", column_free, "",
-        "Who flies says that nothing is over the place of take-off, up to height_m, where the "
-        "lidar does not see it from the ground.");
-    v.field("column_radius_m", column_radius_m, {0.1, 5}, "m",
-            "of the column over the take-off: the vehicle and its margin");
-    v.field("column_seen_share", column_seen_share, {0, 1}, "",
-            "of it that has to be free where it is not said to be");
     v.field("gone_s", gone_s, {1, 600}, "s",
             "landing, neither vehicle nor lidar heard: nothing is left to be flown; then end");
     v.setting("most_holds", most_holds, {0, 1000}, "",
@@ -154,8 +139,6 @@ class Mission {
   void return_home(const MissionInput& input);
   void hold(const MissionInput& input);
   void landing(const MissionInput& input);
-  void no_landing_place(const PlanningReport& plan);
-  [[nodiscard]] core::Text place_text() const;
   void say_stop(const GuidanceStop& stop);
   [[nodiscard]] bool obey_safety(const MissionInput& input);
 
@@ -199,8 +182,6 @@ class Mission {
   double takeoff_floor_m_ = NAN;
   Time tour_begun_ = 0;  // the first time: a hold does not begin it anew
   Time return_begun_ = 0;
-  Time no_place_since_ = 0;  // to land on; 0: there is one, or none was looked for
-  core::Text no_place_;      // why
   Cause hold_cause_ = Cause::none;
   int holds_ = 0;
   int stops_ = 0;        // of guidance, that were said

@@ -28,7 +28,6 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       ingestion_(config.odometry, config.standstill, sensor, lidar::mount_pose(config.mount)),
       body_pose_(config.body_pose, config.odometry.motion.inertial,
                  lidar::mount_pose(config.mount)),
-      contact_(config.contact),
       window_(config.detection.window_s),
       uncertainty_(uncertainty_for(config)),
       mapping_(config.detection, config.slam, config.objects, uncertainty_),
@@ -88,7 +87,6 @@ void MissionLockstep::receive(Time now) {
     gate_.correct(packet.payload, verdict);
     for (const lidar::ImuSample& sample : lidar::decode_imu(packet.payload, sensor_)) {
       body_pose_.add(sample, now);
-      (void)contact_.add(sample);
     }
     ingestion_.add(packet.payload);
   }
@@ -225,8 +223,6 @@ void MissionLockstep::supervise(Time now) {
   input.stop = guidance_.last_stop();
   input.has_targets = !planning_.active().idle();
   input.orders = std::exchange(given_, {});
-  input.contact = contact_.last();
-  input.grid = grid_;
   const Mission::Output output = supervisor_.step(std::move(input));
 
   orders_ = output.orders;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "saker/autonomy/config.h"
-#include "saker/autonomy/contact.h"
 #include "saker/autonomy/delayed.h"
 #include "saker/autonomy/lockstep.h"
 #include "saker/autonomy/pipeline.h"
@@ -126,7 +125,6 @@ class MissionLockstep {
   lidar::SensorGate gate_;
   Ingestion ingestion_;
   BodyPose body_pose_;
-  Contact contact_;
   MotionLog motion_log_;
   LabelledWindow window_;
   std::shared_ptr<const uncertainty::Model> uncertainty_;  // null: nothing needs it

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,9 +12,6 @@ namespace saker::autonomy {
 namespace {
 
 const Eigen::Vector3d kTakeoffFoot(0, 0, 0);  // `odom` begins there
-
-/// m, over the take-off: from higher the ground below is beyond what the map holds of it.
-constexpr double kLookHeight_m = 4;
 
 double turn_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
@@ -44,8 +40,7 @@ Planning::Planning(const PlanningConfig& config, const active::ActiveConfig& act
       view_(active.view),
       planner_(motion),
       active_(active, table, prior, planner_.geofence(), std::move(model), motion.limits),
-      landing_look_(config.landing),
-      home_(0, 0, std::min(home_height_m, kLookHeight_m)) {
+      home_(0, 0, home_height_m) {
   if (active::sees_ahead(view_)) return;
   throw Error(
       "mount.rotation_deg: the lidar does not see where the vehicle flies, which is nose first: "
@@ -59,7 +54,6 @@ Planning::Output Planning::step(const PlanningInput& input, const core::Budget& 
   if (input.order != last_order_) {
     refusals_ = 0;
     goal_id_ = -1;
-    ending_ = {};
   }
   last_order_ = input.order;
   if (input.order == PlanningOrder::none || input.committed == nullptr) return output;
@@ -122,64 +116,23 @@ void Planning::tour(const PlanningInput& input, const core::Budget& budget, Outp
 
 void Planning::home(const PlanningInput& input, const core::Budget& budget, Output& output) {
   const SE3 T_odom_world = input.map ? input.map->T_world_odom.inverse() : SE3::Identity();
-  const Eigen::Vector3d here = input.odometry.T_odom_body.translation();
-  Goal goal{T_odom_world * home_, std::nullopt};
-  if (ending_.landing) goal.position.head<2>() = *ending_.landing;
+  const Goal goal{T_odom_world * home_, std::nullopt};
   PlanningReport& report = output.report;
   Way way = way_to(goal, input, budget, output);
   const bool stands = input.now >= input.committed->end();
-  const double away = (here - goal.position).norm();
+  const double away = (input.odometry.T_odom_body.translation() - goal.position).norm();
   if (stands && (way == Way::there || way == Way::as_near_as_it_gets)) {
     if (away <= config_.home_tolerance_m) {
-      if (!ending_.about) ending_.text = fmt::format("{:.1f} m from it", away);
-      return choose_landing(input, T_odom_world, output);
+      report.status = PlanningStatus::home_reached;
+      report.text = fmt::format("{:.1f} m from it", away);
+      return;
     }
     refused(report, fmt::format("comes no nearer to home than {:.1f} m", away));
     way = Way::refused;
   }
-  if (way != Way::refused || refusals_ < config_.most_refusals) return;
-  if (ending_.landing) {  // here, then
-    ending_.moves = config_.most_moves;
-  } else {
-    ending_.status = PlanningStatus::home_unreachable;
-    ending_.about = here.head<2>();
-    ending_.text = report.text;
+  if (way == Way::refused && refusals_ >= config_.most_refusals) {
+    report.status = PlanningStatus::home_unreachable;
   }
-  ending_.landing = here.head<2>();
-  choose_landing(input, T_odom_world, output);
-}
-
-/// Over where it is to land: whether it may, or where to else.
-void Planning::choose_landing(const PlanningInput& input, const SE3& T_odom_world, Output& output) {
-  PlanningReport& report = output.report;
-  report.status = ending_.status;
-  report.text = ending_.text;
-  if (ending_.moves > 0) report.text += "; moved to a place that is fit to land on";
-  if (input.grid == nullptr) return;  // safety holds and lands on that
-  const Eigen::Vector3d here = input.odometry.T_odom_body.translation();
-  const Eigen::Vector3d stood = T_odom_world * kTakeoffFoot;
-  const LandingPlace place = landing_look_.at(*input.grid, here.head<2>(), here.z(), stood);
-  if (place.fit()) return;
-  if (!ending_.about) ending_.about = here.head<2>();
-  const SE3 T_world_odom = T_odom_world.inverse();
-  const auto allowed = [&](const Eigen::Vector2d& p) {
-    const Eigen::Vector3d p_world = T_world_odom * Eigen::Vector3d(p.x(), p.y(), here.z());
-    return planner_.geofence().inside_polygon_m(p_world.head<2>()) > 0;
-  };
-  const LandingPlace best =
-      landing_look_.near(*input.grid, *ending_.about, here.z(), stood, allowed);
-  const double away = (best.at - here.head<2>()).norm();
-  if (ending_.moves < config_.most_moves && best.badness() < place.badness() &&
-      away > config_.goal_tolerance_m) {
-    ++ending_.moves;
-    ending_.landing = best.at;
-    refusals_ = 0;
-    report.status = PlanningStatus::flying;
-    report.text = fmt::format("{}; moves by {:.1f} m", place.text(), away);
-    return;
-  }
-  report.status = PlanningStatus::no_landing_place;
-  report.text = place.text();
 }
 
 /// When what is proposed now begins.

@@ -6,7 +6,6 @@
 
 #include "saker/active/active.h"
 #include "saker/autonomy/guidance.h"
-#include "saker/autonomy/landing_place.h"
 #include "saker/autonomy/pipeline.h"
 #include "saker/autonomy/planning_report.h"
 #include "saker/motion/motion.h"
@@ -18,8 +17,7 @@
 /// motion planner finds the way from the committed trajectory at now + horizon. Nothing is proposed
 /// while what is committed leads there. After `most_refusals` in a row the viewpoint is given back
 /// to it, which offers another one or ends; on the way home it is given up. Every refusal
-/// brings one of the two nearer: there is no livelock. At home, or where the way home is given up,
-/// it looks for a place to land on and moves over it, `most_moves` times at most.
+/// brings one of the two nearer: there is no livelock.
 namespace saker::autonomy {
 
 struct PlanningConfig {
@@ -31,8 +29,6 @@ struct PlanningConfig {
   double goal_tolerance_m = 0.3;
   double yaw_tolerance_deg = 8;
   double home_tolerance_m = 2.0;
-  int most_moves = 3;
-  LandingConfig landing;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -46,8 +42,6 @@ struct PlanningConfig {
             "what is committed ends at the goal: SLAM moves it by centimetres");
     v.field("yaw_tolerance_deg", yaw_tolerance_deg, {0.5, 180}, "°", "the same for heading");
     v.field("home_tolerance_m", home_tolerance_m, {0.1, 20}, "m", "near enough to land");
-    v.field("most_moves", most_moves, {0, 20}, "", "from one landing place to another");
-    v.group("landing", landing, "where it may land");
   }
 };
 
@@ -90,7 +84,6 @@ class Planning {
 
   void tour(const PlanningInput& input, const core::Budget& budget, Output& output);
   void home(const PlanningInput& input, const core::Budget& budget, Output& output);
-  void choose_landing(const PlanningInput& input, const SE3& T_odom_world, Output& output);
   [[nodiscard]] Way way_to(const Goal& goal, const PlanningInput& input, const core::Budget& budget,
                            Output& output);
   [[nodiscard]] std::optional<Way> turn_to(const Goal& goal, const PlanningInput& input,
@@ -105,17 +98,7 @@ class Planning {
   active::FieldOfViewConfig view_;
   motion::MotionPlanner planner_;
   active::Active active_;
-  LandingLook landing_look_;
   Eigen::Vector3d home_;  // world
-  /// How the way home ends: where a landing is looked for, where it is to be, and what is said
-  /// then.
-  struct Ending {
-    std::optional<Eigen::Vector2d> about, landing;  // odom
-    int moves = 0;
-    PlanningStatus status = PlanningStatus::home_reached;
-    std::string text;
-  };
-  Ending ending_;
   PlanningOrder last_order_ = PlanningOrder::none;
   int goal_id_ = -1;  // the viewpoint of the last step
   int refusals_ = 0;

@@ -28,13 +28,12 @@ enum class PlanningStatus {
   nothing_reachable,  ///< no target is left, and of those that there are none was visited
   home_reached,
   home_unreachable,  ///< too many refusals on the way home
-  no_landing_place,  ///< hovers at home: no place that is fit to land on is near; `text` says why
 };
 
 [[nodiscard]] inline const char* to_string(PlanningStatus status) {
-  constexpr const char* kNames[] = {"idle",         "flying",           "refused",
-                                    "gave up",      "tour complete",    "nothing reachable",
-                                    "home reached", "home unreachable", "no landing place"};
+  constexpr const char* kNames[] = {"idle",         "flying",          "refused",
+                                    "gave up",      "tour complete",   "nothing reachable",
+                                    "home reached", "home unreachable"};
   return kNames[static_cast<int>(status)];
 }
 

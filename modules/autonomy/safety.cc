@@ -1,7 +1,6 @@
 #include "saker/autonomy/safety.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace saker::autonomy {
 namespace {
@@ -9,33 +8,14 @@ namespace {
 constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
 constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
 
-/// One of the future is as good as none, but for clocks that differ a little.
-double age_s(Time last, Time now, double limit_s) {
-  if (last == 0) return kNeverSaidAfter_s;
-  const double about = to_seconds(now) - to_seconds(last);  // the exact one may not fit into Time
-  if (std::abs(about) > kNeverSaidAfter_s || about < -limit_s) return kNeverSaidAfter_s;
-  return to_seconds(now - last);
-}
-
 /// "no scan for 0.7 s" or "no scan yet".
 core::Text silence_text(const char* what, Time last, Time now, double limit_s) {
   if (last == 0) return core::text("no {} yet", what);
-  const double age = age_s(last, now, limit_s);
-  if (age == kNeverSaidAfter_s) return core::text("the newest {} is not of this time", what);
-  return core::text("no {} for {:.2f} s, expected one within {:g} s", what, age, limit_s);
+  return core::text("no {} for {:.2f} s, expected one within {:g} s", what, to_seconds(now - last),
+                    limit_s);
 }
 
-/// Of the pose, not of its status.
-bool is_whole(const VehicleOdometry& odometry) {
-  return odometry.T_odom_body.matrix().allFinite() && odometry.velocity.allFinite() &&
-         odometry.angular_velocity.allFinite() && odometry.covariance.allFinite();
-}
-
-bool is_whole(const Setpoint& setpoint) {
-  return setpoint.position.allFinite() && setpoint.velocity.allFinite() &&
-         setpoint.acceleration.allFinite() && std::isfinite(setpoint.yaw) &&
-         std::isfinite(setpoint.yaw_rate);
-}
+double age_s(Time last, Time now) { return last == 0 ? kNeverSaidAfter_s : to_seconds(now - last); }
 
 }  // namespace
 
@@ -45,13 +25,13 @@ const char* to_string(SafetyAction action) {
 }
 
 Safety::Safety(const SafetyConfig& config, const motion::Geofence& geofence)
-    : config_(core::checked(config, "safety")), geofence_(geofence), battery_(config.battery) {
+    : config_(core::checked(config, "safety")), geofence_(geofence) {
   found_.reserve(32);  // more than there are
 }
 
 void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) const {
   const auto listen = [&](Cause cause, const char* what, Time last, double limit_s) {
-    if (age_s(last, in.now, limit_s) <= limit_s) return;
+    if (age_s(last, in.now) <= limit_s) return;
     found.push_back({cause, SafetyAction::hold, silence_text(what, last, in.now, limit_s)});
   };
   listen(Cause::vehicle_silent, "state of the vehicle", in.heard.vehicle, config_.vehicle_s);
@@ -67,44 +47,17 @@ void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) co
   listen(Cause::odometry_stale, "pose", in.odometry.stamp, config_.odometry_s);
 }
 
-/// What is left against what landing here, and the way home, take.
-void Safety::find_battery(const SafetyInput& in, std::vector<Finding>& found) const {
-  const bool known = BatteryReserve::known(in.vehicle.battery_share);
-  const double left = in.flying ? battery_.left() : in.vehicle.battery_share;
-  const double land = std::max(config_.battery_land_share, battery_.landing_share());
-  const double home =
-      std::max(config_.battery_return_share, config_.battery_land_share + battery_.home_share());
-  if (left < land) {
-    found.push_back(
-        {Cause::battery_empty, SafetyAction::land, core::text("battery at {:.0f} %", 100 * left)});
-  } else if (left < home) {
-    found.push_back(
-        {Cause::battery_low, SafetyAction::return_home,
-         left < config_.battery_return_share
-             ? core::text("battery at {:.0f} %", 100 * left)
-             : core::text("battery at {:.0f} %: home, {:.0f} m, takes {:.0f} %", 100 * left,
-                          battery_.way_home_m(), 100 * battery_.home_share())});
-  } else if (!known && (!in.flying || battery_.unknown_s() > config_.battery.unknown_s)) {
-    found.push_back({Cause::battery_unknown, SafetyAction::return_home,
-                     std::isnan(left) ? core::Text("the charge of the battery is not known")
-                                      : core::text("the charge of the battery is not known; by "
-                                                   "its use {:.0f} %",
-                                                   100 * left)});
-  }
-}
-
 void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
-  if (in.contact != 0 && age_s(in.contact, in.now, config_.contact_s) <= config_.contact_s) {
-    found.push_back({Cause::collision, SafetyAction::land, "the accelerometer felt a contact"});
+  const double charge = in.vehicle.battery_share;
+  if (charge < config_.battery_land_share) {
+    found.push_back({Cause::battery_empty, SafetyAction::land,
+                     core::text("battery at {:.0f} %", 100 * charge)});
+  } else if (charge < config_.battery_return_share) {
+    found.push_back({Cause::battery_low, SafetyAction::return_home,
+                     core::text("battery at {:.0f} %", 100 * charge)});
   }
-  if (!in.vehicle.attitude.coeffs().allFinite()) {
-    found.push_back({Cause::vehicle_unclear, SafetyAction::hold,
-                     "the attitude of the vehicle is not a number"});
-  }
-  if ((in.vehicle.faults & ~std::uint32_t{kAllVehicleFaults}) != 0) {
-    found.push_back({Cause::vehicle_unclear, SafetyAction::hold,
-                     core::text("the vehicle says faults {:#x}, of which some are not known",
-                                in.vehicle.faults)});
+  if ((in.vehicle.faults & kCollision) != 0) {
+    found.push_back({Cause::collision, SafetyAction::land, "the vehicle has hit something"});
   }
   if (in.vehicle.mode == VehicleMode::descend) {
     const bool rejected = (in.vehicle.faults & kOdometryRejected) != 0;
@@ -115,17 +68,12 @@ void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) co
 }
 
 void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) const {
-  const double lost_s = config_.odometry_lost_s;
-  if (in.odometry.status == VehicleOdometryStatus::lost ||
-      !(age_s(in.odometry.stamp, in.now, lost_s) <= lost_s) ||
-      !(age_s(in.heard.odometry, in.now, lost_s) <= lost_s)) {
-    found.push_back({Cause::odometry_lost, SafetyAction::silence,
-                     silence_text("registered scan", in.heard.odometry, in.now, lost_s)});
-    return;
-  }
-  if (!is_whole(in.odometry)) {
-    found.push_back({Cause::odometry_lost, SafetyAction::silence,
-                     "the odometry, or its covariance, is not a number"});
+  const bool known = in.odometry.status != VehicleOdometryStatus::lost &&
+                     age_s(in.odometry.stamp, in.now) <= config_.odometry_lost_s;
+  if (!known || age_s(in.heard.odometry, in.now) > config_.odometry_lost_s) {
+    found.push_back(
+        {Cause::odometry_lost, SafetyAction::silence,
+         silence_text("registered scan", in.heard.odometry, in.now, config_.odometry_lost_s)});
     return;
   }
   if (!geofence_.contains(in.place)) {
@@ -135,7 +83,7 @@ void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) cons
   }
   if (in.flying && in.setpoint) {
     const double off = (in.setpoint->position - in.odometry.T_odom_body.translation()).norm();
-    if (!(off <= config_.off_course_m) || !is_whole(*in.setpoint)) {
+    if (off > config_.off_course_m) {
       found.push_back(
           {Cause::off_course, SafetyAction::hold, core::text("{:.1f} m off the setpoint", off)});
     }
@@ -144,7 +92,6 @@ void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) cons
 
 void Safety::find(const SafetyInput& input, std::vector<Finding>& found) const {
   find_silence(input, found);
-  find_battery(input, found);
   find_vehicle(input, found);
   find_place(input, found);
 }
@@ -165,8 +112,6 @@ SafetyDecision Safety::worst(std::span<const Finding> findings) {
 }
 
 SafetyDecision Safety::update(const SafetyInput& input) {
-  battery_.update(input.now, input.vehicle.battery_share, input.odometry.T_odom_body.translation(),
-                  input.flying);
   if (!input.flying) {
     held_for_ = {};
     return {};

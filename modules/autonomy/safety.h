@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "saker/autonomy/battery_reserve.h"
 #include "saker/autonomy/cause.h"
 #include "saker/core/config.h"
 #include "saker/core/text.h"
@@ -14,24 +13,11 @@
 /// The safety ladder, 50 Hz — reads ages, odometry and the vehicle's state, makes the most severe
 /// action that they call for, with its cause (for the mission).
 ///
-/// Rungs, mildest first: nothing; return (battery low: what is left is the way home, the landing
-/// and a reserve; battery unknown); hold (something is stale, outside the geofence, off course);
-/// land (what was held for did not come back, battery empty, a contact was felt); silence (odometry
-/// lost: a setpoint would be a guess, the flight controller descends on IMU and barometer). A hold
-/// ends when its causes have been gone for `recover_s`. Reads no clock; cost: microseconds, and in
-/// `update` no memory.
-///
-/// What is unknown (NaN, infinite, out of range) is never fine:
-///
-///     a stamp: 0, or in the future by more than its limit            silent: hold
-///     charge of the battery                   on the ground no flight; for 5 s: return
-///     attitude, or a bit of faults that nobody knows                 hold
-///     pose, velocity, turn rate, covariance of the odometry          lost: silence
-///     place in the geofence                                          outside: hold
-///     distance to the setpoint, anything of the setpoint             off course: hold
-///
-/// The barometer's height is not read: the odometry's is. Clearance reaches safety as the age of
-/// the verdict; guidance alone reads the verdict, and stops where it is not clear.
+/// Rungs, mildest first: nothing; return (battery low); hold (something is stale, outside the
+/// geofence, off course); land (what was held for did not come back, battery empty, collision);
+/// silence (odometry lost: a setpoint would be a guess, the flight controller descends on IMU and
+/// barometer). A hold ends when its causes have been gone for `recover_s`. Reads no clock; cost: a
+/// few comparisons, and in `update` no memory.
 namespace saker::autonomy {
 
 /// Stamps of the newest of everything that must not stop; 0: never came.
@@ -50,7 +36,7 @@ struct SafetyConfig {
   double vehicle_s = 0.5;
   double lidar_s = 0.5;
   double odometry_s = 0.5;
-  double odometry_lost_s = 6.0;
+  double odometry_lost_s = 1.0;
   double verdict_s = 0.5;
   double occupancy_s = 2.0;
   double mapping_s = 5.0;
@@ -60,8 +46,6 @@ struct SafetyConfig {
   double battery_return_share = 0.3;
   double battery_land_share = 0.15;
   double off_course_m = 1.5;
-  double contact_s = 1.0;
-  BatteryReserveConfig battery;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -71,8 +55,8 @@ struct SafetyConfig {
     v.setting("odometry_s", odometry_s, {0.15, 10}, "s",
               "After so long without a registered scan the vehicle holds.");
     v.setting("odometry_lost_s", odometry_lost_s, {0.2, 10}, "s",
-              "After so long without a registered scan no setpoint is sent, however sure the "
-              "inertial unit is of itself.");
+              "After so long without a registered scan no setpoint is sent: the inertial unit "
+              "alone drifts.");
     v.setting("verdict_s", verdict_s, {0.15, 10}, "s",
               "The collision checker's verdict (10 Hz) may be silent for so long.");
     v.setting("occupancy_s", occupancy_s, {0.6, 30}, "s",
@@ -85,15 +69,12 @@ struct SafetyConfig {
     v.setting("recover_s", recover_s, {0.1, 60}, "s",
               "A vehicle that holds goes on after so long without a cause.");
     v.setting("battery_return_share", battery_return_share, {0, 1}, "",
-              "It returns at this share of the charge at the latest.");
+              "It returns at this share of the charge.");
     v.setting("battery_land_share", battery_land_share, {0, 1}, "",
-              "It lands where it is at this share of the charge; the way home begins where this "
-              "share is left at touch-down.");
+              "It lands where it is at this share of the charge.");
     v.setting(
         "off_course_m", off_course_m, {0.2, 20}, "m",
         "Farther than this from the setpoint, the vehicle cannot do what it is told and holds.");
-    v.field("contact_s", contact_s, {0.05, 60}, "s", "a felt contact counts for so long");
-    v.group("battery", battery, "what the way home takes");
   }
 };
 
@@ -122,7 +103,6 @@ struct SafetyInput {
   std::optional<Setpoint> setpoint;  ///< the one that is flown
   Eigen::Vector3d place =
       Eigen::Vector3d::Constant(NAN);  ///< `world`: what the geofence is to hold
-  Time contact = 0;                    ///< the last one felt; 0: none
   bool flying = false;                 ///< off the ground, by the mission's phase
   bool planning_due = false;           ///< planning has something to do
 };
@@ -134,13 +114,12 @@ class Safety {
   /// Everything that is wrong now, without memory: what keeps a vehicle on the ground.
   [[nodiscard]] std::vector<Finding> findings(const SafetyInput& input) const;
 
-  /// At every step; on the ground it forgets.
+  /// In flight, at every step; on the ground it forgets.
   [[nodiscard]] SafetyDecision update(const SafetyInput& input);
 
  private:
   void find(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_silence(const SafetyInput& input, std::vector<Finding>& found) const;
-  void find_battery(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_vehicle(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_place(const SafetyInput& input, std::vector<Finding>& found) const;
   [[nodiscard]] static SafetyDecision worst(std::span<const Finding> findings);
@@ -148,8 +127,7 @@ class Safety {
   SafetyConfig config_;
   motion::Geofence geofence_;
   std::vector<Finding> found_;  // of this step; its memory is used again
-  BatteryReserve battery_;
-  SafetyDecision held_for_;  // the hold under way
+  SafetyDecision held_for_;     // the hold under way
   Time held_since_ = 0;
   Time last_cause_ = 0;  // when the hold's causes were last there
 };

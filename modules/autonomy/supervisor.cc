@@ -7,7 +7,10 @@ namespace saker::autonomy {
 
 Supervisor::Supervisor(const SafetyConfig& safety, const MissionConfig& mission,
                        const motion::Geofence& geofence)
-    : config_(mission), safety_(safety, geofence), mission_(mission) {}
+    : height_m_(mission.height_m),
+      least_classified_share_(mission.least_classified_share),
+      safety_(safety, geofence),
+      mission_(mission) {}
 
 SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   SafetyInput result;
@@ -24,8 +27,7 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   const MissionPhase phase = mission_.phase();
   const bool level = phase == MissionPhase::tour || phase == MissionPhase::return_home ||
                      phase == MissionPhase::hold;
-  if (!level) result.place.z() = config_.height_m;
-  if (level) result.contact = input.contact;  // feet touch the ground, too
+  if (!level) result.place.z() = height_m_;
   return result;
 }
 
@@ -39,37 +41,14 @@ std::vector<Finding> Supervisor::on_the_ground(const SupervisorInput& input,
   if (!input.has_targets) {
     found.push_back({Cause::no_targets, SafetyAction::none, "no target to map"});
   }
-  find_column(found);
   const bool labelled = input.heard.mapping != 0;  // else the map is missing, which is said
-  if (labelled && !(input.classified_share >= config_.least_classified_share)) {
+  if (labelled && !(input.classified_share >= least_classified_share_)) {
     found.push_back(
         {Cause::nothing_classified, SafetyAction::none,
          core::text("segmentation gives {:.1f} % of the points a class, expected {:g} %",
-                    100 * input.classified_share, 100 * config_.least_classified_share)});
+                    100 * input.classified_share, 100 * least_classified_share_)});
   }
   return found;
-}
-
-/// Again with each block.
-void Supervisor::look_up_from(const SupervisorInput& input) {
-  if (input.grid == nullptr || input.grid->stamp == looked_at_) return;
-  looked_at_ = input.grid->stamp;
-  column_ = look_up(*input.grid, input.odometry.T_odom_body.translation(), config_.column_radius_m,
-                    config_.height_m + config_.column_radius_m);
-}
-
-/// What stands there counts, whatever is said of it; what was not seen where nothing is said.
-void Supervisor::find_column(std::vector<Finding>& found) const {
-  if (column_.blocked()) {
-    found.push_back({Cause::column_not_free, SafetyAction::none,
-                     core::text("something is {:.1f} m over the vehicle, which climbs to {:g} m",
-                                column_.lowest_m, config_.height_m)});
-  } else if (!config_.column_free && !(1 - column_.unknown_share() >= config_.column_seen_share)) {
-    found.push_back({Cause::column_not_free, SafetyAction::none,
-                     core::text("{:.0f} % of the column over the vehicle was not seen: who sees "
-                                "that it is free says so by mission.column_free",
-                                100 * column_.unknown_share())});
-  }
 }
 
 Mission::Output Supervisor::step(SupervisorInput input) {
@@ -86,7 +65,6 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.orders = std::move(input.orders);
   mission.safety = safety_.update(seen);
   if (mission_.phase() == MissionPhase::preflight) {
-    look_up_from(input);
     mission.findings = on_the_ground(input, seen);
   } else if (mission_.taken_over()) {
     mission.findings = safety_.findings(seen);

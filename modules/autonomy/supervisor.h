@@ -1,10 +1,8 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "saker/autonomy/landing_place.h"
 #include "saker/autonomy/mission.h"
 #include "saker/autonomy/safety.h"
 
@@ -24,8 +22,6 @@ struct SupervisorInput {
   double classified_share = NAN;     ///< of the newest labelled scan
   bool land_ordered = false;
   std::vector<Order> orders;  ///< of an operator, since the last step; at any moment
-  Time contact = 0;           ///< the last one felt; 0: none
-  std::shared_ptr<const occupancy::OccupancyGrid> grid = nullptr;  ///< the newest; null: none yet
 };
 
 /// One step of the safety loop: what the ladder says, and what the mission makes of it.
@@ -39,17 +35,14 @@ class Supervisor {
   [[nodiscard]] const Mission& mission() const { return mission_; }
 
  private:
-  void look_up_from(const SupervisorInput& input);
-  void find_column(std::vector<Finding>& found) const;
   [[nodiscard]] SafetyInput safety_input(const SupervisorInput& input) const;
   [[nodiscard]] std::vector<Finding> on_the_ground(const SupervisorInput& input,
                                                    const SafetyInput& seen) const;
 
-  MissionConfig config_;
+  double height_m_;
+  double least_classified_share_;
   Safety safety_;
   Mission mission_;
-  ColumnLook column_;        // over the take-off
-  Time looked_at_ = 0;       // stamp of the block that it was seen in
   Time planning_since_ = 0;  // when planning was last asked to begin; 0: it is not asked
 };
 

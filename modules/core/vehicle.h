@@ -31,9 +31,9 @@ enum VehicleFault : std::uint32_t {
   kOdometryRejected = 2,  ///< it contradicts IMU and barometer
   kSetpointExpired = 4,   ///< the last setpoint ran out
   kBatteryLow = 8,
+  kCollision = 16,  ///< it has hit something
   kTakenOver =
-      16,  ///< a pilot, or a failsafe of the autopilot, flies it: nothing of ours is obeyed
-  kAllVehicleFaults = 31,
+      32,  ///< a pilot, or a failsafe of the autopilot, flies it: nothing of ours is obeyed
 };
 
 /// 50 Hz, flight controller → executive.

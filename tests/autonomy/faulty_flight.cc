@@ -50,7 +50,7 @@ void RecordedPlant::step_to(Time time) {
   plant_.step_to(time);
   const simulation::VehicleTruth truth = vehicle_.truth();
   const VehicleState last = rows.empty() ? VehicleState{} : rows.back().state;
-  rows.push_back({truth, last, {}});
+  rows.push_back({truth, last});
   if (watch) watch(truth);
 }
 
@@ -62,22 +62,7 @@ std::vector<SensorPacket> RecordedPlant::take_packets() {
       return packet.payload.size() != lidar::kImuPacketBytes;
     });
   }
-  if (link == Link::covered) {
-    for (SensorPacket& packet : packets) cover(packet.payload);
-  }
   return packets;
-}
-
-/// The same columns, each beam without a return.
-void RecordedPlant::cover(std::vector<std::uint8_t>& packet) const {
-  const lidar::PacketFormat format(vehicle_.sensor());
-  if (packet.size() != format.packet_bytes()) return;
-  std::vector<lidar::Column> columns;
-  for (int i = 0; i < vehicle_.sensor().columns_per_packet; ++i) {
-    columns.push_back(format.column(packet, i));
-    for (lidar::Pixel& pixel : columns.back().pixels) pixel = {};
-  }
-  packet = format.encode(columns);
 }
 
 std::optional<VehicleState> RecordedPlant::take_state() {
@@ -93,7 +78,6 @@ std::vector<CommandAck> RecordedPlant::take_acks() {
 }
 
 void RecordedPlant::send(const VehicleOdometry& odometry) {
-  if (!rows.empty()) rows.back().odometry = odometry;
   if (hears()) plant_.send(odometry);
 }
 void RecordedPlant::send(const Setpoint& setpoint) {
@@ -129,7 +113,6 @@ FaultyFlight::FaultyFlight(std::vector<simulation::ScenarioEvent> events)
     : vehicle_(scenario(std::move(events)), 1), plant(vehicle_), checker(config_) {
   const simulation::MissionFence& fence = vehicle_.site().fence;
   config_.active.policy = active::PolicyName::visit;
-  config_.mission.column_free = true;
   config_.active.visit_policy.sides = 2;  // long legs
   config_.active.visit_policy.oblique_worth_m = 10;
   config_.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
@@ -222,17 +205,6 @@ bool FaultyFlight::flies_fast_again(double most_s) {
   while (!fast && plant.now() < end && result_.phase != MissionPhase::done) go_on(kSlice_s);
   plant.watch = nullptr;
   return fast;
-}
-
-double FaultyFlight::most_off_m() const {
-  double most = 0;
-  for (const RecordedPlant::Row& row : plant.rows) {
-    if (row.truth.stamp <= fault_ || row.odometry.status == VehicleOdometryStatus::lost) continue;
-    const Eigen::Vector3d off =
-        row.odometry.T_odom_body.translation() - row.truth.T_world_body.translation();
-    most = std::max(most, off.norm());
-  }
-  return most;
 }
 
 std::uint32_t FaultyFlight::faults() const {

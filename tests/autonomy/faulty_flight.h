@@ -15,15 +15,13 @@ class RecordedPlant : public SteppedPlant {
  public:
   enum class Link {
     up,
-    deaf,     ///< nothing reaches the vehicle: the executive has died
-    blind,    ///< no scans come from it, all else does
-    covered,  ///< its scans have no returns, all else is as it should be
-    gone      ///< nothing comes from it either: the plant has died
+    deaf,   ///< nothing reaches the vehicle: the executive has died
+    blind,  ///< no scans come from it, all else does
+    gone    ///< nothing comes from it either: the plant has died
   };
   struct Row {
     simulation::VehicleTruth truth;
     VehicleState state;
-    VehicleOdometry odometry{};  ///< as sent; `lost` before the first
     [[nodiscard]] double speed() const { return truth.velocity.norm(); }
   };
 
@@ -44,8 +42,7 @@ class RecordedPlant : public SteppedPlant {
   std::function<void(const simulation::VehicleTruth&)> watch;  ///< at every step
 
  private:
-  [[nodiscard]] bool hears() const { return link != Link::deaf && link != Link::gone; }
-  void cover(std::vector<std::uint8_t>& packet) const;
+  [[nodiscard]] bool hears() const { return link == Link::up || link == Link::blind; }
 
   simulation::SimulatedVehicle& vehicle_;
   tools::SimulatedPlant plant_;
@@ -102,8 +99,6 @@ class FaultyFlight {
   [[nodiscard]] double said_after(Cause cause) const;
   /// Goes on until it flies fast again, for so long at most. \return whether it did
   bool flies_fast_again(double most_s);
-  /// m, the largest error of the odometry that was sent, since the fault.
-  [[nodiscard]] double most_off_m() const;
   /// Of the vehicle, since the fault: all bits that were ever set.
   [[nodiscard]] std::uint32_t faults() const;
   [[nodiscard]] int collisions() const { return vehicle_.truth().collisions; }

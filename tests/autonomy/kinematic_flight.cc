@@ -63,9 +63,8 @@ KinematicFlight::KinematicFlight(const std::vector<Eigen::Vector3d>& targets,
                 MissionConfig{}.height_m),
       guidance_(GuidanceConfig{}),
       supervisor_({}, {}, planning_.geofence()) {
+  vehicle_.battery_share = 1;
   odometry_.velocity.setZero();
-  odometry_.angular_velocity.setZero();
-  odometry_.covariance = 1e-4 * Matrix6d::Identity();
 }
 
 double KinematicFlight::run(double limit_s) {
@@ -79,7 +78,6 @@ double KinematicFlight::run(double limit_s) {
 
 void KinematicFlight::step() {
   vehicle_.stamp = odometry_.stamp = now_;
-  vehicle_.battery_share = battery(1);
   odometry_.status = VehicleOdometryStatus::ok;
   if (const auto& committed = guidance_.committed()) {
     verdict_ = motion::Verdict{};
@@ -120,7 +118,6 @@ void KinematicFlight::supervise() {
   input.planning = report_;
   input.has_targets = !planning_.active().idle();
   input.classified_share = 1;
-  input.grid = grid_;
   const Mission::Output output = supervisor_.step(std::move(input));
   orders_ = output.orders;
   if (output.anchor) guidance_.anchor(now_, odometry_);

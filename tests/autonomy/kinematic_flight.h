@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,8 +26,6 @@ class KinematicFlight {
 
   /// What the collision checker is to say of the committed trajectory; clear by default.
   std::function<void(motion::Verdict&)> judge = [](motion::Verdict&) {};
-  /// What the vehicle says of its charge.
-  std::function<double(double)> battery = [](double share) { return share; };
   std::vector<MissionEvent> events;
   std::vector<PlanningReport> reports;
   std::vector<Setpoint> setpoints;

@@ -19,7 +19,6 @@ class SmallMission {
         checker_(config_.local_checker, config_.collision_checker, config_.motion.clearance) {
     const simulation::MissionFence& fence = vehicle_.site().fence;
     config_.active.policy = active::PolicyName::visit;
-    config_.mission.column_free = true;
     config_.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
     mission_ = std::make_unique<MissionLockstep>(config_, vehicle_.sensor(), vehicle_.site().prior,
                                                  plant_, checker_, threads, timings_);

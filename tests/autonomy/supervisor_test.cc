@@ -2,11 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
 #include <utility>
-
-#include "kinematic_flight.h"
 
 namespace saker::autonomy {
 namespace {
@@ -38,14 +35,8 @@ class SupervisorTest : public testing::Test {
     input.odometry.status = VehicleOdometryStatus::ok;
     input.odometry.T_odom_body.translation() =
         Eigen::Vector3d(off == Cause::outside_geofence ? 1e4 : 0.0, 0, height);
-    input.odometry.velocity = input.odometry.angular_velocity = Eigen::Vector3d::Zero();
-    input.odometry.covariance = 1e-4 * Matrix6d::Identity();
     input.setpoint.emplace();
     input.setpoint->position = Eigen::Vector3d(off == Cause::off_course ? 5.0 : 0.0, 0, height);
-    input.setpoint->velocity = input.setpoint->acceleration = Eigen::Vector3d::Zero();
-    input.setpoint->yaw = input.setpoint->yaw_rate = 0;
-    input.grid = grid;
-    input.contact = contact;
     input.acks = std::exchange(acks, {});
     input.planning = planning;
     input.has_targets = true;
@@ -64,20 +55,8 @@ class SupervisorTest : public testing::Test {
 
   MissionPhase phase() const { return supervisor.mission().phase(); }
 
-  static MissionConfig stated_free() {
-    MissionConfig config;
-    config.column_free = true;
-    return config;
-  }
-  void say_nothing_of_the_column() {
-    supervisor =
-        Supervisor(SafetyConfig{}, MissionConfig{}, motion::Geofence(motion::GeofenceConfig{}));
-  }
-
-  Supervisor supervisor{SafetyConfig{}, stated_free(), motion::Geofence(motion::GeofenceConfig{})};
-  std::shared_ptr<occupancy::OccupancyGrid> grid =
-      std::make_shared<occupancy::OccupancyGrid>(free_block(10));
-  Time contact = 0;
+  Supervisor supervisor{SafetyConfig{}, MissionConfig{},
+                        motion::Geofence(motion::GeofenceConfig{})};
   Time now = kNanosecondsPerSecond, stopped_at = 0;
   Cause off = Cause::none;
   bool pose_stands = false;
@@ -216,67 +195,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Passing{Cause::planning_stale, 6}, Passing{Cause::guidance_silent, 1},
                     Passing{Cause::outside_geofence, 1}, Passing{Cause::off_course, 1}),
     [](const auto& passing) { return std::string(to_string(passing.param.cause)); });
-
-TEST_F(SupervisorTest, TakesOffThroughAColumnThatWasSeenFree) {
-  say_nothing_of_the_column();
-  grid->stamp = now;
-  run(10);
-  EXPECT_GE(phase(), MissionPhase::takeoff);
-}
-
-TEST_F(SupervisorTest, DoesNotTakeOffIntoAColumnThatNobodySawOrStatedFree) {
-  say_nothing_of_the_column();
-  fill(*grid, {-10, -10, 1.5}, {10, 10, 8}, occupancy::Cell::unknown);
-  grid->stamp = now;
-  run(MissionConfig{}.preflight_s + 1);
-  EXPECT_EQ(phase(), MissionPhase::done);
-  EXPECT_FALSE(armed);
-  EXPECT_NE(last.text.find("mission.column_free"), std::string::npos) << last.text;
-}
-
-TEST_F(SupervisorTest, WithoutABlockOfOccupancyNothingOfTheColumnIsSeen) {
-  say_nothing_of_the_column();
-  grid.reset();
-  run(MissionConfig{}.preflight_s + 1);
-  EXPECT_FALSE(armed);
-}
-
-TEST_F(SupervisorTest, TakesOffThroughAColumnThatIsStatedFree) {
-  fill(*grid, {-10, -10, 1.5}, {10, 10, 8}, occupancy::Cell::unknown);
-  grid->stamp = now;
-  run(10);
-  EXPECT_GE(phase(), MissionPhase::takeoff);
-}
-
-TEST_F(SupervisorTest, WhatStandsOverTheVehicleCountsWhateverIsStated) {
-  fill(*grid, {-0.2, -0.2, 2.5}, {0.2, 0.2, 2.7}, occupancy::Cell::occupied);
-  grid->stamp = now;
-  run(MissionConfig{}.preflight_s + 1);
-  EXPECT_FALSE(armed);
-  EXPECT_NE(last.text.find("over the vehicle"), std::string::npos) << last.text;
-}
-
-TEST_F(SupervisorTest, TheColumnIsSeenAgainWithEachBlock) {
-  fill(*grid, {-0.2, -0.2, 2.5}, {0.2, 0.2, 2.7}, occupancy::Cell::occupied);
-  grid->stamp = now;
-  run(5);
-  EXPECT_FALSE(armed);
-  grid = std::make_shared<occupancy::OccupancyGrid>(free_block(10));
-  grid->stamp = now;
-  run(5);
-  EXPECT_TRUE(armed);
-}
-
-TEST_F(SupervisorTest, AContactOnTheWayLandsAndOneOfTheFeetDoesNot) {
-  run(0.5);
-  contact = now;  // on the ground
-  run(3);
-  ASSERT_EQ(phase(), MissionPhase::tour);
-  contact = now;
-  run(0.1);
-  EXPECT_EQ(phase(), MissionPhase::landing);
-  EXPECT_EQ(last.cause, Cause::collision);
-}
 
 }  // namespace
 }  // namespace saker::autonomy

@@ -22,7 +22,6 @@ class MavlinkMission : public ::testing::TestWithParam<Autopilot> {
     config_.active.policy = active::PolicyName::visit;
     config_.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
     config_.mission.command.deadline_s = 60;
-    config_.mission.column_free = true;
   }
 
   static simulation::MissionConfig scenario(const Quirks& quirks) {

@@ -26,7 +26,8 @@ std::string names_of(std::uint32_t faults) {
       {kNoOdometry, "no odometry"},
       {kOdometryRejected, "odometry rejected"},
       {kSetpointExpired, "setpoint expired"},
-      {kBatteryLow, "battery low"}};
+      {kBatteryLow, "battery low"},
+      {kCollision, "collision"}};
   std::string names;
   for (const auto& [bit, name] : kNames) {
     if ((faults & bit) != 0) names += (names.empty() ? "" : ", ") + std::string(name);

@@ -20,8 +20,6 @@ std::string site_yaml(const simulation::MissionFence& fence, const lidar::MountC
   using core::value_text;
   return fmt::format(
       "# What the executive is told of this site and this vehicle.\n"
-      "mission:\n"
-      "  column_free: true\n"  // so the site was built
       "motion:\n"
       "  geofence:\n"
       "    lowest_m: {}\n"

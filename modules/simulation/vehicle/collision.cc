@@ -41,10 +41,7 @@ void CollisionMonitor::check(const Eigen::Vector3d& centre_sim) {
     min_clearance_ = clearance;
     nearest_label_ = world_->materials[near->material].label;
   }
-  if (clearance <= 0 && !touching_) {
-    ++collisions_;
-    away_ = (centre_sim - near->point.cast<double>()).normalized();
-  }
+  if (clearance <= 0 && !touching_) ++collisions_;
   touching_ = touching_ ? clearance < kContactEnds : clearance <= 0;
 }
 

@@ -26,8 +26,6 @@ class CollisionMonitor {
   /// Contacts; one lasts until there are 10 cm of clearance again.
   [[nodiscard]] int collisions() const { return collisions_; }
   [[nodiscard]] bool touching() const { return touching_; }
-  /// From what was touched to the centre, of the last contact: unit, sim; zero before the first.
-  [[nodiscard]] const Eigen::Vector3d& away() const { return away_; }
   /// m between the sphere and what is nearest, the least so far; ≤ 0 at a contact.
   [[nodiscard]] double min_clearance() const { return min_clearance_; }
   /// Label (SemanticKITTI) of what was nearest then.
@@ -40,7 +38,6 @@ class CollisionMonitor {
   double radius_;
   int collisions_ = 0;
   bool touching_ = false;
-  Eigen::Vector3d away_ = Eigen::Vector3d::Zero();
   double min_clearance_ = std::numeric_limits<double>::infinity();
   int nearest_label_ = 0;
 };

@@ -109,10 +109,6 @@ void Quadrotor::step(double dt, const MotorThrusts& commanded, const Eigen::Vect
   const Wrench standing = legs(ground);
   wrench.force += standing.force + drag(wind);
   wrench.torque += standing.torque;
-  if (bump_left_s_ > 0) {
-    wrench.force += bump_;
-    bump_left_s_ -= dt;
-  }
   integrate(dt, wrench);
 }
 

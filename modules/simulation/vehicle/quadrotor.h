@@ -81,12 +81,6 @@ class Quadrotor {
   void step(double dt, const MotorThrusts& commanded, const Eigen::Vector3d& wind,
             const GroundHeights& ground);
 
-  /// Something is hit: a force through the centre (N, sim) for so many seconds.
-  void bump(const Eigen::Vector3d& force, double seconds) {
-    bump_ = force;
-    bump_left_s_ = seconds;
-  }
-
   [[nodiscard]] const RigidState& state() const { return state_; }
   [[nodiscard]] const MotorThrusts& thrusts() const { return thrusts_; }
   [[nodiscard]] std::array<Eigen::Vector3d, 4> feet() const;  ///< sim
@@ -110,8 +104,6 @@ class Quadrotor {
   Eigen::Matrix4d allocation_;
   RigidState state_;
   MotorThrusts thrusts_ = MotorThrusts::Zero();
-  Eigen::Vector3d bump_ = Eigen::Vector3d::Zero();
-  double bump_left_s_ = 0;
   int feet_down_ = 0;
   double touchdown_speed_ = 0;
 };

@@ -19,9 +19,7 @@ constexpr Time kTick = kNanosecondsPerSecond / kTicksPerSecond;
 constexpr double kTickSeconds = 1.0 / kTicksPerSecond;
 constexpr std::size_t kRecentPoses = 64;
 constexpr std::size_t kMostScans = 1000;
-constexpr float kDeepest = 200;   ///< m below the vehicle where ground is looked for
-constexpr double kBump_s = 0.03;  ///< of a contact
-constexpr double kRestitution = 0.3;
+constexpr float kDeepest = 200;         ///< m below the vehicle where ground is looked for
 constexpr double kHardTouchdown = 2.0;  ///< m/s: harder ones break something
 
 double lowest_point(const World& world) {
@@ -122,6 +120,7 @@ void SimulatedVehicle::at_50_hz() {
   watch_contacts();
   run_events();
   state_ = controller_.state();
+  if (truth().collisions > 0) state_->faults |= kCollision;
 }
 
 /// What each foot would stand on: beyond the world's edge a plain.
@@ -141,20 +140,9 @@ void SimulatedVehicle::probe_ground() {
 void SimulatedVehicle::watch_contacts() {
   const bool airborne = !body_.on_ground();
   if (airborne && took_off_ == 0) took_off_ = now_;
-  const int before = contacts_.collisions();
   if (airborne) contacts_.check(body_.state().pose.translation());
-  if (contacts_.collisions() > before) bounce();
   if (was_airborne_ && !airborne && body_.touchdown_speed() > kHardTouchdown) ++crashes_;
   was_airborne_ = airborne;
-}
-
-/// Off what it has hit: felt by the inertial units, as a guard or a leg that gives.
-void SimulatedVehicle::bounce() {
-  const Eigen::Vector3d& away = contacts_.away();
-  const double into_mps = -away.dot(body_.state().velocity);
-  if (into_mps <= 0) return;
-  const double impulse = (1 + kRestitution) * into_mps * config_.airframe.mass_kg;
-  body_.bump(impulse / kBump_s * away, kBump_s);
 }
 
 /// The body's pose, between two ticks.

@@ -32,8 +32,7 @@ struct ScanTruth {
 ///
 /// Physics at 1 kHz, flight controller at 500 Hz, wind, ground and the lidar's inertial unit at
 /// 100 Hz (configured), barometer, contacts and states at 50 Hz; the world moves and beams are cast
-/// a packet at a time. What is hit pushes the body back, which its inertial units feel; no message
-/// says so. Nothing depends on how time is cut into steps: the result is a function of
+/// a packet at a time. Nothing depends on how time is cut into steps: the result is a function of
 /// config, seed and what came in at which time, to the byte. Throws nothing after its construction.
 /// Cost on one core: see README.md.
 class SimulatedVehicle {
@@ -83,7 +82,6 @@ class SimulatedVehicle {
   void turn_lidar();
   void probe_ground();
   void watch_contacts();
-  void bounce();
   void run_events();
   void begin(const ScenarioEvent& event);
   void insert_obstacle(const ScenarioEvent& event);

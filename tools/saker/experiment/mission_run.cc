@@ -40,12 +40,11 @@ simulation::SimulatedVehicle vehicle_of(const MissionRun& run) {
   return {run.site, run.seed, run.team->takeoff, run.team->own_seed};
 }
 
-/// What the vehicle is told of the site: the fence, heights that fit under it, that the column over
-/// its take-off is free, as the site was built, and how its lidar is mounted.
+/// What the vehicle is told of the site: the fence, heights that fit under it, and how its lidar is
+/// mounted.
 autonomy::Config at_site(autonomy::Config config, const MissionRun& run, const Task& task,
                          const simulation::MissionFence& fence) {
   config.motion.geofence = {fence.lowest_m, fence.highest_m, task.fence_m};
-  config.mission.column_free = true;
   config.mount = {run.site.mount.position_m, run.site.mount.rotation_deg};
   return autonomy::within_geofence(std::move(config));
 }
