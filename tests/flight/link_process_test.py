@@ -48,6 +48,7 @@ class Link(RadioTest):
         self.wait(lambda: self.stored_bytes("R1") == 30_000, 60, "history of R1")
         self.stop(robot)
 
+    # Hazard: Orders and the radio | the link is gone | nothing queues; it comes back with the newest | –
     def test_a_link_that_is_gone_comes_back_with_the_newest(self):
         base, _ = self.connect()
         self.assertEqual(self.stop(base), 0)
@@ -61,6 +62,7 @@ class Link(RadioTest):
         self.assertEqual(self.heard(orders), [])
         self.assertEqual(self.heard(ear), [("R1_STATE", "0400000000")])
 
+    # Hazard: Orders and the radio | a disk was replaced: counters are lost | locked out until its key is renewed | –
     def test_a_robot_whose_disk_was_replaced_is_brought_back_by_a_renewed_key(self):
         base, link = self.connect()
         self.stop(link)
@@ -133,6 +135,7 @@ class Attackers(RadioTest):
         for process in (self.base, self.link):
             self.assertIsNone(process.poll())
 
+    # Hazard: Orders and the radio | somebody reads along | reads nothing | –
     def test_one_who_reads_along_reads_nothing(self):
         dump = self.capture()
         self.talk()
@@ -144,6 +147,7 @@ class Attackers(RadioTest):
         words += [self.held_by("R1")["R1_history_1"][at:at + 8] for at in range(0, 20_000, 1000)]
         self.assertEqual([word for word in words if word in file], [])
 
+    # Hazard: Orders and the radio | somebody replays | nothing gets in | –
     def test_one_who_replays_gets_nothing_in(self):
         dump = self.capture()
         self.talk()
@@ -174,6 +178,7 @@ class Attackers(RadioTest):
                 yield "udp", to, goal, payload
                 yield "raw", to, 0, radio_world.ipv4(source, to, payload, goal)
 
+    # Hazard: Orders and the radio | somebody forges | nothing gets in | –
     def test_one_who_forges_gets_nothing_in(self):
         dump = self.capture()
         self.talk()
@@ -192,6 +197,7 @@ class Attackers(RadioTest):
                   for port in self.ports()]
         self.nothing_gets_in(lambda: self.inject(lines))
 
+    # Hazard: Orders and the radio | somebody speaks LCM to the radio | nothing gets in | –
     def test_one_who_speaks_lcm_to_the_radio_gets_nothing_in(self):
         messages = [radio_world.lcm_datagram(f"R1{suffix}", bytes.fromhex(SECRET)) for suffix in ALL]
         lines = [("udp", to, port, message) for message in messages for port in (7667, 7668)
@@ -204,6 +210,7 @@ class Attackers(RadioTest):
             self.inject(lines)
             self.assertIn(("R1_SETPOINT", SECRET), self.heard(open_ear))
 
+    # Hazard: Orders and the radio | the flight bus on the radio | nothing of it is there | –
     def test_nothing_of_the_flight_bus_is_on_the_radio(self):
         dump = self.capture()
         self.say(self.robot, "R1_SETPOINT", SECRET, count=50)

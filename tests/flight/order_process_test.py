@@ -62,6 +62,7 @@ class Orders(BaseTest):
     def refused(self, flight, why, count):
         flight.wait(lambda: flight.log("saker-flight").count(f"an order is refused: {why}") >= count, 5, why)
 
+    # Hazard: Orders and the radio | orders that are replayed, forged, late or another robot's | refused, counted, said in a line | –
     def test_a_robot_obeys_who_has_the_key_and_nobody_else(self):
         flight = self.fly(self.key)
         flight.fly_fast()
@@ -102,6 +103,7 @@ class Orders(BaseTest):
         self.order(robot, order, "--wait", "0.5", "--set", f"bus.control_url={ELSEWHERE}")
         return self.heard(listener)[0][1]
 
+    # Hazard: Orders and the radio | no key of the team | no order is obeyed; SIGTERM lands | –
     def test_without_the_teams_key_no_order_is_obeyed_and_sigterm_lands(self):
         flight = self.fly(self.folder / "no.key")
         self.assertEqual(flight.wait_for_row(lambda row: row.flying, 30, "take-off").collisions, 0)

@@ -46,28 +46,36 @@ class SensorAttack(unittest.TestCase):
     def packets(self, mode, rate, says, **more):
         return self.attack(("sensor_attacker", "{site}/metadata.json", mode, str(rate), str(ATTACKED)), says, **more)
 
+    # Hazard: Sensor | forged inertial stamps far off | refused, counted and named; clock and pose are not moved | –
     def test_inertial_stamp_far_off(self):
         self.packets("imu_far", 20, "sensor: refused [0-9]+ packets stamped ahead of time")
 
+    # Hazard: Sensor | forged inertial stamps 5 s ahead | refused; real samples are not shut out | –
     def test_inertial_stamp_five_seconds_ahead(self):
         self.packets("imu_ahead", 20, "sensor: refused [0-9]+ packets stamped ahead of time")
 
+    # Hazard: Sensor | forged frame numbers | refused; no scan is closed by them | –
     def test_forged_frame_number(self):
         self.packets("frame", 20, "sensor: refused [0-9]+ packets of a frame that is not due")
 
+    # Hazard: Sensor | a second sensor on the same ports | dropped by its address, counted | –
     def test_second_sensor(self):
         self.packets("second", 320, "sensor: the kernel dropped [0-9]+ packets of others")
 
+    # Hazard: Sensor | a flood of 100 times the rate on the lidar port | dropped by the kernel | –
     def test_flood_on_the_lidar_port(self):
         self.packets("flood_lidar", LIDAR_FLOOD, "sensor: the kernel dropped [0-9]+ packets of others")
 
+    # Hazard: Sensor | the same on the inertial port | dropped by the kernel | –
     def test_flood_on_the_inertial_port(self):
         self.packets("flood_imu", IMU_FLOOD, "sensor: the kernel dropped [0-9]+ packets of others")
 
+    # Hazard: Sensor | a flood from the sensor's own address | each turn has a budget: packets are lost, not the flight | –
     def test_flood_by_the_sensors_own_address(self):
         """Real packets are lost with the others: it may hold, it does not fall."""
         self.packets("flood_imu_copied", IMU_FLOOD, "sensor: refused [0-9]+ packets", may_hold=True)
 
+    # Hazard: Stages and links | a flood on a channel of the bus | 128 messages a turn; the others wait or are lost | –
     def test_flood_on_the_bus(self):
         count = str(LIDAR_FLOOD * ATTACKED)
         self.attack(("lcm_probe", "say", "udpm://239.255.76.67:7667?ttl=0", "R1_VERDICT", "00" * 100, count,

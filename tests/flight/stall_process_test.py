@@ -95,6 +95,7 @@ class Stall(unittest.TestCase):
 
     # What only informs.
 
+    # Hazard: Stages and links | the disk stalls under the exchange | the flight goes on and ends within its bound | –
     def test_exchange(self):
         """The disk takes nothing any more: the flight goes on, and ends."""
         begin = self.stall("sync exchange")
@@ -107,6 +108,7 @@ class Stall(unittest.TestCase):
         self.ends(0)
         self.whole("map.json", "trajectory.txt", "odometry.txt", "loops.json")
 
+    # Hazard: Stages and links | the main thread hangs | the flight goes on; SIGTERM lands | –
     def test_main(self):
         """Log, MISSION and HEALTH stand still; the vehicle flies, and a signal lands it."""
         begin = self.stall("hang saker-flight")
@@ -126,15 +128,19 @@ class Stall(unittest.TestCase):
         self.ends(1)
         self.whole("map.json", "odometry.txt", "loops.json")
 
+    # Hazard: Stages and links | planning hangs | holds after 4 s, lands 10 s later | 2
     def test_planning(self):
         self.stale("planning", "planning_stale")
 
+    # Hazard: Stages and links | mapping hangs | holds after 5 s, lands 10 s later | 2
     def test_mapping(self):
         self.stale("mapping", "mapping_stale")
 
+    # Hazard: Stages and links | guidance hangs | setpoints expire: the flight controller holds; it lands | 2
     def test_guidance(self):
         self.stale("guidance", "guidance_silent")
 
+    # Hazard: Stages and links | the loop of the pose hangs | holds, then silence: the flight controller descends | 2
     def test_pose(self):
         """The pose stands still: nothing is flown by it; the flight controller comes down by itself."""
         begin = self.stall("hang pose")
@@ -142,6 +148,7 @@ class Stall(unittest.TestCase):
         self.assertLess(self.comes_down(begin), 2)
         self.fed_all_the_time()
 
+    # Hazard: Stages and links | safety hangs | guidance holds; the watchdog ends the executive; the flight controller descends | 2
     def test_safety(self):
         """Nobody watches: guidance stops, the watchdog starves."""
         begin = self.stall("hang safety")
@@ -165,9 +172,11 @@ class Stall(unittest.TestCase):
         self.ends(1)
         self.whole("map.json", "trajectory.txt", "odometry.txt", "loops.json")
 
+    # Hazard: Stages and links | planning throws | off after three times in a row, counted, then as one that hangs | 2
     def test_planning_throws(self):
         self.throws("planning", "planning_stale")
 
+    # Hazard: Stages and links | mapping throws | off after three times in a row, counted, then as one that hangs | 2
     def test_mapping_throws(self):
         self.throws("mapping", "mapping_stale")
 
