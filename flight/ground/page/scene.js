@@ -8,7 +8,7 @@ import {OrbitControls} from "three/controls";
 import {roundLength} from "./geometry.js";
 
 const SLOW_MS = 60, MEASURED = 8;      // mean time of so many pictures, above which they get coarser
-const IDLE_SHARE = 0.7;                // of a picture's time, in which none is drawn: words and orders come first
+const IDLE_SHARE = 0.3;                // of a picture's time, in which none is drawn: words and orders come first
 const GRID_M = 300, GRID_STEP_M = 10;
 const COARSENESS = [1, 0.75, 0.5];     // of the screen's pixels, from the finest
 
@@ -55,7 +55,10 @@ export class Scene {
 
   #floor() {
     const numbers = [];
-    for (let k = -GRID_M; k <= GRID_M; k += GRID_STEP_M) numbers.push(k, -GRID_M, 0, k, GRID_M, 0, -GRID_M, k, 0, GRID_M, k, 0);
+    for (let k = -GRID_M; k <= GRID_M; k += GRID_STEP_M) {
+      // In pieces: WebGL by software loses a line that begins behind the camera.
+      for (let l = -GRID_M; l < GRID_M; l += GRID_STEP_M) numbers.push(k, l, 0, k, l + GRID_STEP_M, 0, l, k, 0, l + GRID_STEP_M, k, 0);
+    }
     const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(numbers, 3));
     this.floor = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({color: "#b4bec8"}));
     this.floor.position.z = -0.05;
