@@ -58,7 +58,7 @@ test("10,000 objects are open within 5 s", async t => {
   const before = await cpu(), {page, open_ms, errors} = await loaded(t, 10000, {objects: 20});
   const after = await cpu(), page_ms = after.page - before.page, drawing_ms = after.drawing - before.drawing;
   console.log(`10,000 objects: open after ${open_ms} ms, processor ${page_ms.toFixed(0)} ms of the page, ${drawing_ms.toFixed(0)} ms of drawing; load ${loadavg()[0]}; ${await page.evaluate(() => document.querySelectorAll(".rows .row").length)} rows in the page`);
-  assert.ok(busy() ? page_ms + drawing_ms < 5000 : open_ms < 5000, `${open_ms} ms, processor ${page_ms + drawing_ms} ms`);
+  assert.ok(busy() ? Math.max(page_ms, drawing_ms) < 5000 : open_ms < 5000, `${open_ms} ms, processor ${page_ms} ms, ${drawing_ms} ms`);
   assert.ok(await page.evaluate(() => document.querySelectorAll(".rows .row").length) < 60);
   assert.deepEqual(errors, []);
 });
