@@ -90,7 +90,7 @@ export class ObjectLayer {
   /// Ground planes go into `below`, which stays where the objects fade.
   constructor(group, below = group) {
     this.group = group;
-    const lit = () => new THREE.MeshLambertMaterial({transparent: true, opacity: 1});
+    const lit = () => new THREE.MeshLambertMaterial();
     this.cuboids = new Instances(group, new THREE.BoxGeometry(1, 1, 1), marked(lit(), CUBOID_FRAGMENT));
     this.cylinders = new Instances(group, new THREE.CylinderGeometry(0.5, 0.5, 1, 12).rotateX(Math.PI / 2), lit());
     const earth = new THREE.MeshBasicMaterial({color: "#e2dccf"});
@@ -130,6 +130,7 @@ export class ObjectLayer {
   setOpacity(opacity) {
     for (const {material} of [this.cuboids, this.cylinders]) {
       material.opacity = opacity;
+      if (material.transparent !== opacity < 1) [material.transparent, material.needsUpdate] = [opacity < 1, true];
       material.depthWrite = opacity > 0.5;
     }
     this.group.visible = opacity > 0.01;

@@ -12,6 +12,7 @@ import {VehicleLayer} from "./vehicle.js";
 import {ViewpointLayer} from "./viewpoints.js";
 
 const LABELLED = 60;  // places in the tour, of all targets
+const LARGE = 200;    // objects
 
 export class RobotView {
   constructor(scene, robot, colour) {
@@ -43,8 +44,7 @@ export class RobotView {
     switch (kind) {
       case "objects":
         this.objects.set(this.list(), layers.ground ? (newest.objects?.ground ?? []) : []);
-        this.uncertainty.set(this.list(), SCALES[chosen.uncertainty]);
-        this.floor_m = this.#floor();
+        this.#setUncertainty(SCALES[chosen.uncertainty]);
         this.path.setTour(newest.plan, target, newest.odometry?.position, layers.tour);
         break;
       case "odometry":
@@ -66,6 +66,15 @@ export class RobotView {
       default: return false;
     }
     return true;
+  }
+
+  // Of a large map no more often than once a second: it changes slowly, and costs more than the objects.
+  #setUncertainty(scale) {
+    const objects = this.list(), now_ms = performance.now();
+    if (scale === this.scale && objects.length > LARGE && now_ms - this.uncertain_ms < 1000) return;
+    [this.scale, this.uncertain_ms] = [scale, now_ms];
+    this.uncertainty.set(objects, scale);
+    this.floor_m = this.#floor();
   }
 
   updateAll(chosen) {
@@ -90,7 +99,7 @@ export class RobotView {
   labels(chosen) {
     const labels = [], {newest} = this.robot;
     if (this.vehicle.place) labels.push({point: this.vehicle.place.clone().add(new THREE.Vector3(0, 0, 0.9)), text: this.robot.name, kind: "robot", colour: this.colour});
-    if (!chosen.layers.labels) return labels;
+    if (!chosen.layers.labels || chosen.robot !== this.robot.name) return labels;
     const world = `${this.robot.name}/world`;
     const tour = newest.plan?.tour ?? [];
     if (chosen.layers.tour) {

@@ -7,8 +7,8 @@ import * as THREE from "three";
 import {OrbitControls} from "three/controls";
 import {roundLength} from "./geometry.js";
 
-const SLOW_MS = 60, MEASURED = 8;      // mean time of so many pictures, above which they get coarser
-const IDLE_SHARE = 0.7;                // of a picture's time, in which none is drawn: words and orders come first
+const SLOW_MS = 60, MEASURED = 3;      // mean time of so many pictures, above which they get coarser
+const IDLE_SHARE = 0.3;                // of a picture's time, in which none is drawn: words and orders come first
 const GRID_M = 300, GRID_STEP_M = 10;
 const COARSENESS = [1, 0.75, 0.5];     // of the screen's pixels, from the finest
 
@@ -23,7 +23,8 @@ function bySoftware() {
 export class Scene {
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !bySoftware(), powerPreference: "low-power"});
+    const software = bySoftware();
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !software, powerPreference: "low-power"});
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color("#eef1f4");
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.2, 4000);
@@ -38,7 +39,7 @@ export class Scene {
     this.lineMaterials = new Set();
     this.drawn = 0;  // frames so far
     this.times = [];
-    this.coarse = 0;
+    this.coarse = software ? 1 : 0;
     this.idleUntil_ms = 0;
     this.#light();
     this.#floor();
@@ -55,7 +56,10 @@ export class Scene {
 
   #floor() {
     const numbers = [];
-    for (let k = -GRID_M; k <= GRID_M; k += GRID_STEP_M) numbers.push(k, -GRID_M, 0, k, GRID_M, 0, -GRID_M, k, 0, GRID_M, k, 0);
+    for (let k = -GRID_M; k <= GRID_M; k += GRID_STEP_M) {
+      // In pieces: WebGL by software loses a line that begins behind the camera.
+      for (let l = -GRID_M; l < GRID_M; l += GRID_STEP_M) numbers.push(k, l, 0, k, l + GRID_STEP_M, 0, l, k, 0, l + GRID_STEP_M, k, 0);
+    }
     const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(numbers, 3));
     this.floor = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({color: "#b4bec8"}));
     this.floor.position.z = -0.05;

@@ -17,7 +17,7 @@ export class UncertaintyLayer {
     group.add(this.group);
     this.whiskers = new Lines(scene, this.group, {colour: "#111111", width: 1.8});
     const flat = colour => new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide});
-    this.parts = [[new THREE.CircleGeometry(1, 24), flat("#f0e442"), 0], [new THREE.RingGeometry(0.88, 1, 24), flat("#111111"), RIM_OVER_M]];
+    this.parts = [[new THREE.CircleGeometry(1, 16), flat("#f0e442"), 0], [new THREE.RingGeometry(0.88, 1, 16), flat("#111111"), RIM_OVER_M]];
     this.meshes = [];
     this.count = 0;  // ellipses
   }
