@@ -47,6 +47,8 @@ LockstepResult Lockstep::run(lidar::ScanSource& source, LockstepObserver& observ
   }
   result.map = slam_.reported_map();
   noise_.add_common(result.map);
+  result.tentative = slam_.tentative();
+  result.fit = fit();
   result.keyframes = static_cast<int>(slam_.keyframes().size());
   return result;
 }
@@ -74,7 +76,9 @@ void Lockstep::start_segmentation(const std::shared_ptr<const lidar::Scan>& scan
                                   odometry::OdometryEstimate& estimate) {
   auto labels = pool_.submit([this, scan](Stages& stages) {
     return timings_.time("segmentation", [&] {
-      return std::make_shared<const lidar::Labels>(stages.segmentation.segment(*scan));
+      auto labelled = std::make_shared<const lidar::Labels>(stages.segmentation.segment(*scan));
+      count(*scan, *labelled);
+      return labelled;
     });
   });
   auto points = std::make_shared<const std::vector<Eigen::Vector3f>>(std::move(estimate.points));
@@ -84,6 +88,26 @@ void Lockstep::start_segmentation(const std::shared_ptr<const lidar::Scan>& scan
                      std::move(labels),
                      {scan, &scan->reflectivity},
                      scan->T_lidar_sensor.translation().cast<double>()});
+}
+
+void Lockstep::count(const lidar::Scan& scan, const lidar::Labels& labels) {
+  std::int64_t points = 0, classified = 0, millionths = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!scan.points[i].allFinite()) continue;
+    ++points;
+    classified += labels.classes[i] != 0;
+    millionths += std::lround(1e6 * labels.probability[i]);
+  }
+  points_ += points;
+  classified_ += classified;
+  probability_millionths_ += millionths;
+}
+
+SegmentationFit Lockstep::fit() const {
+  const auto points = static_cast<double>(points_.load());
+  if (points == 0) return {};
+  return {.probability = static_cast<double>(probability_millionths_.load()) / points / 1e6,
+          .classified_share = static_cast<double>(classified_.load()) / points};
 }
 
 /// Called when the newest scan has just been labelled: the detections are given in its frame.

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <atomic>
+#include <cmath>
+#include <cstdint>
 #include <deque>
 #include <future>
 #include <memory>
@@ -45,10 +48,19 @@ class LockstepObserver {
   virtual void on_detections(const objects::Detections& detections) = 0;
 };
 
+/// How sure the network was of the points of all labelled scans: of a sensor unlike those that it
+/// was trained for it is not.
+struct SegmentationFit {
+  double probability = NAN;       ///< mean of each point's class's
+  double classified_share = NAN;  ///< of the points that have another class than `other`
+};
+
 struct LockstepResult {
   std::vector<ScanRecord> scans;   ///< one for every scan that went in
   std::vector<SE3> T_world_lidar;  ///< beside `scans`: after SLAM
   objects::ObjectMap map;
+  std::vector<objects::MapObject> tentative;  ///< slam.h: seen too seldom to be in the map
+  SegmentationFit fit;
   int labelled_scans = 0;
   int slam_cycles = 0;
   int keyframes = 0;
@@ -83,6 +95,8 @@ class Lockstep {
   void start_segmentation(const std::shared_ptr<const lidar::Scan>& scan,
                           odometry::OdometryEstimate& estimate);
   void start_cycle(Time now);
+  void count(const lidar::Scan& scan, const lidar::Labels& labels);  ///< from any thread
+  [[nodiscard]] SegmentationFit fit() const;
   void finish_cycles(std::size_t most_pending, LockstepObserver& observer);
 
   Config config_;
@@ -95,6 +109,8 @@ class Lockstep {
   MotionLog motion_log_;
   std::deque<LabelledFuture> window_;
   std::deque<Cycle> pending_;
+  // Of finite points; integers, so that their order does not matter.
+  std::atomic<std::int64_t> points_ = 0, classified_ = 0, probability_millionths_ = 0;
   WorkerPool<Stages> pool_;  // last: its threads use what stands above
 };
 

@@ -2,13 +2,19 @@
 
 #include <pcap/pcap.h>
 
+#include <utility>
+
 #include "saker/core/error.h"
 
 namespace saker::lidar {
 
 void CaptureReader::Closer::operator()(pcap* handle) const { pcap_close(handle); }
 
-CaptureReader::CaptureReader(const std::filesystem::path& file) {
+CaptureReader::CaptureReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {
+  if (!files_.empty()) open(files_[next_file_++]);
+}
+
+void CaptureReader::open(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw Error("cannot read capture " + file.string() + ": no such file");
   }
@@ -29,9 +35,9 @@ std::optional<Datagram> CaptureReader::next() {
   while (!over_) {
     const int status = pcap_next_ex(handle_.get(), &head, &bytes);
     if (status != 1) {
-      over_ = true;
       if (status == PCAP_ERROR) ended_early_ = pcap_geterr(handle_.get());
-      return std::nullopt;
+      over_ = !open_next();
+      continue;
     }
     const Time captured =
         head->ts.tv_sec * kNanosecondsPerSecond + head->ts.tv_usec;  // nanoseconds, as asked for
@@ -39,6 +45,18 @@ std::optional<Datagram> CaptureReader::next() {
     if (auto datagram = reassembly_.add(ip, captured)) return datagram;
   }
   return std::nullopt;
+}
+
+/// A part that is none ends the recording, with a line.
+bool CaptureReader::open_next() {
+  if (next_file_ >= files_.size()) return false;
+  try {
+    open(files_[next_file_++]);
+  } catch (const Error& error) {
+    ended_early_ = error.what();
+    return false;
+  }
+  return true;
 }
 
 int CaptureReader::lost_datagrams() const {

@@ -11,10 +11,11 @@ constexpr std::size_t kMostSizesKept = 4;
 
 }  // namespace
 
-OusterCapture::OusterCapture(const std::filesystem::path& capture,
+OusterCapture::OusterCapture(const std::vector<std::filesystem::path>& files,
                              const std::filesystem::path& metadata, bool keep_ranges,
                              const std::string& chosen)
-    : reader_(capture), stream_(read_metadata(metadata), keep_ranges) {
+    : reader_(files), stream_(read_metadata(metadata), keep_ranges) {
+  const std::filesystem::path& capture = files.front();
   only_ = choose_sender(find_ouster_senders(capture, PacketFormat(stream_.info())), chosen,
                         stream_.info(), capture.string());
   read_until_item();

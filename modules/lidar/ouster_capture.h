@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "saker/lidar/capture_reader.h"
 #include "saker/lidar/ouster_senders.h"
@@ -18,8 +19,13 @@ class OusterCapture : public ScanSource {
   /// Throws Error when either file cannot be read, when no packet in the capture fits the metadata,
   /// when several sensors are in it and `sensor` (a serial number or an address) names none, and
   /// when the sensor's serial number is another than the metadata's.
+  /// Files that follow one another are one capture.
+  OusterCapture(const std::vector<std::filesystem::path>& files,
+                const std::filesystem::path& metadata, bool keep_ranges = false,
+                const std::string& sensor = {});
   OusterCapture(const std::filesystem::path& capture, const std::filesystem::path& metadata,
-                bool keep_ranges = false, const std::string& sensor = {});
+                bool keep_ranges = false, const std::string& sensor = {})
+      : OusterCapture(std::vector<std::filesystem::path>{capture}, metadata, keep_ranges, sensor) {}
 
   [[nodiscard]] std::optional<Frame> next() override;
   [[nodiscard]] SourceCounters counters() const override;

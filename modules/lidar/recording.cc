@@ -9,6 +9,7 @@
 #include "saker/lidar/osf/osf_recording.h"
 #include "saker/lidar/ouster_capture.h"
 #include "saker/lidar/recording_kind.h"
+#include "saker/lidar/spinning/spinning_capture.h"
 
 namespace saker::lidar {
 namespace {
@@ -22,6 +23,23 @@ std::string expected_kinds() {
          "MCAP";
 }
 
+/// Of Velodyne or Hesai where most of its beginning is; else of Ouster.
+std::unique_ptr<ScanSource> open_capture(const std::vector<fs::path>& files,
+                                         const RecordingOptions& options) {
+  const SpinningSenders spinning = find_spinning_senders(files.front());
+  if (2 * spinning.packets > spinning.datagrams && options.format != RecordingFormat::kOuster) {
+    return std::make_unique<SpinningCapture>(files, spinning, options);
+  }
+  if (options.metadata.empty() && !spinning.unread.empty()) {
+    throw Error(files.front().string() + ": packets that are not read: " + spinning.unread +
+                "; expected Ouster's, Velodyne's VLP-16, VLP-32C, HDL-32E or HDL-64E, Hesai's "
+                "Pandar64, XT32 or QT64");
+  }
+  return std::make_unique<OusterCapture>(
+      files, options.metadata.empty() ? find_metadata(files.front()) : options.metadata,
+      options.keep_ranges, options.sensor);
+}
+
 std::unique_ptr<ScanSource> open_parts(const RecordingParts& parts,
                                        const RecordingOptions& options) {
   const fs::path& first = parts.files.front();
@@ -31,9 +49,7 @@ std::unique_ptr<ScanSource> open_parts(const RecordingParts& parts,
     case RecordingKind::kClouds:
       return std::make_unique<CloudFolder>(first);
     case RecordingKind::kCapture:
-      return std::make_unique<OusterCapture>(
-          first, options.metadata.empty() ? find_metadata(first) : options.metadata,
-          options.keep_ranges, options.sensor);
+      return open_capture(parts.files, options);
     case RecordingKind::kOsf:
       return std::make_unique<OsfRecording>(first, options);
     case RecordingKind::kRos1Bag:

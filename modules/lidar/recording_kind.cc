@@ -7,6 +7,8 @@
 #include <string>
 
 #include "saker/core/error.h"
+#include "saker/lidar/bags/decompress.h"
+#include "saker/lidar/bags/unpacked_file.h"
 #include "saker/lidar/clouds/cloud_file.h"
 #include "saker/lidar/clouds/cloud_folder.h"
 #include "saker/lidar/clouds/natural_order.h"
@@ -54,6 +56,20 @@ std::map<RecordingKind, std::vector<fs::path>> recordings_in(const fs::path& fol
   return found;
 }
 
+/// NAME-000.pcap, NAME-001.pcap: parts of one recording.
+bool are_numbered(const std::vector<fs::path>& files) {
+  const auto name = [](const fs::path& file) {
+    const std::string stem = file.stem().string();
+    const auto last = stem.find_last_not_of("0123456789");
+    const bool numbered = last != std::string::npos && last + 1 < stem.size() &&
+                          (stem[last] == '-' || stem[last] == '_');
+    return numbered ? stem.substr(0, last + 1) : std::string();
+  };
+  const std::string first = name(files.front());
+  return !first.empty() && std::all_of(files.begin(), files.end(),
+                                       [&](const fs::path& file) { return name(file) == first; });
+}
+
 RecordingParts folder_parts(const fs::path& folder) {
   if (is_kitti_folder(folder)) return {RecordingKind::kFloatScans, {folder}};
   const auto found = recordings_in(folder);
@@ -68,7 +84,8 @@ RecordingParts folder_parts(const fs::path& folder) {
   }
   const auto& [kind, files] = *found.begin();
   const bool parts = kind == RecordingKind::kRos1Bag || kind == RecordingKind::kMcap ||
-                     kind == RecordingKind::kRos2Database;
+                     kind == RecordingKind::kRos2Database ||
+                     (kind == RecordingKind::kCapture && are_numbered(files));
   if (files.size() > 1 && !parts) {
     throw Error(folder.string() + ": " + std::to_string(files.size()) +
                 " captures in it, expected one: name the file");
@@ -78,8 +95,21 @@ RecordingParts folder_parts(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+/// Of a file that is packed with zstd as a whole, the first bytes that it holds.
+std::vector<std::uint8_t> first_unpacked(const fs::path& file) {
+  constexpr std::size_t kFirstBlock = 1 << 18;  // a block of zstd, and more
+  std::vector<std::uint8_t> held;
+  (void)decompress(Compression::kZstd, first_bytes(file, kFirstBlock), kFirstBytes, held);
+  return held;
+}
+
+}  // namespace
+
 RecordingKind recording_kind(const fs::path& file) {
-  const std::vector<std::uint8_t> begin = first_bytes(file, kFirstBytes);
+  const std::vector<std::uint8_t> begin =
+      is_zstd(file) ? first_unpacked(file) : first_bytes(file, kFirstBytes);
   const std::string_view text = text_of(begin);
   const auto begins = [&](std::string_view magic) { return text.substr(0, magic.size()) == magic; };
   if (begins("#ROSBAG V2.0")) return RecordingKind::kRos1Bag;

@@ -282,6 +282,18 @@ objects::ObjectMap Slam::map_with(
   return map;
 }
 
+std::vector<objects::MapObject> Slam::tentative() const {
+  std::vector<objects::MapObject> objects;
+  for (const Landmark& landmark : landmarks_) {
+    const double log_odds = landmark.log_odds - config_.landmarks.missed_log_odds * landmark.missed;
+    const bool moves = landmark.moving || 2 * landmark.seen_moving > landmark.seen;
+    if (moves || log_odds <= 0 || believed(landmark, config_.landmarks)) continue;
+    objects.push_back(map_object(landmark, table_));
+    objects.back().observations = landmark.seen;
+  }
+  return objects;
+}
+
 Slam::MapWithCovariance Slam::map_with_covariance() const {
   MapWithCovariance result{map(), true};
   std::vector<int> ids;

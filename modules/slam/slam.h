@@ -138,6 +138,11 @@ class Slam {
   /// them is known better than the window that saw it best.
   [[nodiscard]] objects::ObjectMap reported_map() const;
 
+  /// What was measured but not often enough, or not well enough, to be in the map: candidates that
+  /// windows speak for and that do not move, and objects whose ends nobody has seen. By ascending
+  /// id, without covariances.
+  [[nodiscard]] std::vector<objects::MapObject> tentative() const;
+
   /// Covariances of the named objects, in the order of `ids`; empty matrices for ids that are not
   /// in the map.
   [[nodiscard]] CovarianceReport covariance(std::span<const int> ids) const;

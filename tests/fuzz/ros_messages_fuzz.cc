@@ -1,5 +1,6 @@
 #include "fuzz.h"
 #include "saker/lidar/bags/ros_messages.h"
+#include "saker/lidar/spinning/spinning_packet.h"
 
 namespace saker::lidar {
 
@@ -19,6 +20,11 @@ void fuzz::run(ByteView input) {
   }
   (void)read_imu(bytes, encoding);
   (void)read_packet(bytes, encoding);
+  for (const char* type : {"velodyne_msgs/VelodyneScan", "pandar_msgs/PandarScan", "x"}) {
+    for (const TimedPacket& packet : read_packets(bytes, encoding, type)) {
+      (void)unread_spinning_packet(packet.bytes);
+    }
+  }
   (void)read_string(bytes, encoding);
   (void)find_transform(read_transforms(bytes, encoding), "lidar", "imu");
 }

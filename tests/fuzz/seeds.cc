@@ -7,6 +7,7 @@
 #include "lidar/made_clouds.h"
 #include "lidar/made_osf.h"
 #include "lidar/made_sensor.h"
+#include "lidar/made_spinning.h"
 #include "saker/lidar/capture_writer.h"
 #include "saker/lidar/imu_packet.h"
 #include "saker/lidar/metadata.h"
@@ -56,6 +57,26 @@ void add_bags(Seeds& seeds) {
     seeds.add("ros_messages", behind(1, ros2[i].bytes));
   }
   seeds.add("ros_messages", behind(1, testing::made_quarter_turn("lidar", "imu", Encoding::kCdr)));
+}
+
+/// Some packets of each sensor.
+void add_spinning(Seeds& seeds) {
+  using enum SpinningKind;
+  std::uint8_t sensor = 0;
+  for (const auto kind : {kVlp16, kVlp32c, kHdl32e, kHdl64e, kPandar64, kXt32, kQt64}) {
+    testing::MadeSpinning made = testing::made_spinning(kind);
+    made.turns = 0.02;
+    for (const bool two : {false, true}) {
+      made.two_returns = two;
+      Bytes bytes = {sensor};
+      for (const testing::MadePacket& packet : testing::made_packets(made)) {
+        testing::put(bytes, packet.time);
+        bytes.insert(bytes.end(), packet.bytes.begin(), packet.bytes.end());
+      }
+      seeds.add("spinning", bytes);
+    }
+    ++sensor;
+  }
 }
 
 void add_clouds(Seeds& seeds) {
@@ -119,5 +140,6 @@ int main(int count, char** words) {
   saker::lidar::fuzz::Seeds seeds(words[1]);
   saker::lidar::fuzz::add_bags(seeds);
   saker::lidar::fuzz::add_clouds(seeds);
+  saker::lidar::fuzz::add_spinning(seeds);
   saker::lidar::fuzz::add_ouster(seeds);
 }

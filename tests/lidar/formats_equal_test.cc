@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 
 #include "made_bag.h"
 #include "made_clouds.h"
 #include "made_sensor.h"
+#include "saker/core/error.h"
 #include "saker/lidar/recording.h"
 
 /// One recording, written in every format, reads as the same points, times and order.
@@ -73,6 +75,60 @@ TEST(FormatsEqual, Ros2DatabasesAreTheRecording) {
   const TemporaryFolder folder;
   testing::write_ros2_database(testing::made_drive(kScans, Encoding::kCdr), folder / "a.db3");
   expect_made(*open_recording(folder / "a.db3"), 0);
+}
+
+TEST(FormatsEqual, FilesThatArePackedAsAWholeAreTheRecording) {
+  const TemporaryFolder folder;
+  testing::write_ros2_database(testing::made_drive(kScans, Encoding::kCdr), folder / "a.db3");
+  const auto pack = [&](const char* name) {
+    std::ifstream in(folder / name, std::ios::binary);
+    const Bytes plain((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    testing::write_bytes(folder / (std::string(name) + ".zstd"),
+                         testing::compressed("zstd", plain));
+    std::filesystem::remove(folder / name);
+  };
+  pack("a.db3");
+  expect_made(*open_recording(folder / "a.db3.zstd"), 0);
+  testing::write_bytes(
+      folder / "b.mcap",
+      testing::made_mcap(testing::made_drive(kScans, Encoding::kCdr), Encoding::kCdr));
+  pack("b.mcap");
+  expect_made(*open_recording(folder / "b.mcap.zstd"), 0);
+}
+
+TEST(FormatsEqual, APackedFileLeavesNothingInTheTemporaryFolder) {
+  const TemporaryFolder folder, temporary;
+  testing::write_bytes(
+      folder / "a.mcap.zstd",
+      testing::compressed(
+          "zstd", testing::made_mcap(testing::made_drive(2, Encoding::kCdr), Encoding::kCdr)));
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  ::setenv("TMPDIR", temporary.path().c_str(), 1);
+  {
+    const auto source = open_recording(folder / "a.mcap.zstd");
+    EXPECT_FALSE(std::filesystem::is_empty(temporary.path()));
+    EXPECT_TRUE(source->next());
+  }
+  before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
+  EXPECT_TRUE(std::filesystem::is_empty(temporary.path()));
+}
+
+TEST(FormatsEqual, APackedFileThatIsCutIsReadUpToTheCut) {
+  const TemporaryFolder folder;
+  Bytes packed = testing::compressed(
+      "zstd", testing::made_mcap(testing::made_drive(kScans, Encoding::kCdr), Encoding::kCdr));
+  packed.resize(packed.size() * 2 / 3);
+  testing::write_bytes(folder / "a.mcap.zstd", packed);
+  try {
+    const auto source = open_recording(folder / "a.mcap.zstd");
+    int scans = 0;
+    while (source->next()) ++scans;
+    EXPECT_LT(scans, kScans);
+    EXPECT_NE(source->counters().ended_early, "");
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
 }
 
 TEST(FormatsEqual, FoldersOfPcdAreTheRecording) {

@@ -5,7 +5,9 @@
 #include <sqlite3.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -55,12 +57,91 @@ std::string ros1_time(Time time) {
          raw(static_cast<std::uint32_t>(time % kNanosecondsPerSecond));
 }
 
+/// A type's checksum and text, as ROS has them.
+struct Definition {
+  std::string md5sum = "0123", text = "float64 x";
+};
+
+Definition definition_of(const std::string& type) {
+  const std::string line(80, '=');
+  const std::string header =
+      line + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n";
+  if (type == "sensor_msgs/PointCloud2") {
+    return {"1158d486dd51d683ce2f1be655c3c181",
+            "Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\n"
+            "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n" +
+                header + line +
+                "\nMSG: sensor_msgs/PointField\nuint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\n"
+                "uint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
+                "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"};
+  }
+  if (type == "sensor_msgs/Imu") {
+    return {"6a62c6daae103f4ff57a132d6f95cec2",
+            "Header header\ngeometry_msgs/Quaternion orientation\n"
+            "float64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n"
+            "float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n"
+            "float64[9] linear_acceleration_covariance\n" +
+                header + line +
+                "\nMSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n" +
+                line + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"};
+  }
+  return {};
+}
+
+/// What a bag tells about a chunk besides its content.
+struct ChunkIndex {
+  std::uint64_t position = 0;
+  Time begin = 0, end = 0;
+  std::map<std::uint32_t, Bytes> entries;  // of each connection: time and place in the chunk
+
+  void add(std::uint32_t connection, Time time, std::size_t place) {
+    begin = begin == 0 ? time : std::min(begin, time);
+    end = std::max(end, time);
+    const std::string stamp = ros1_time(time);
+    Bytes& list = entries[connection];
+    list.insert(list.end(), stamp.begin(), stamp.end());
+    put(list, static_cast<std::uint32_t>(place));
+  }
+};
+
+constexpr std::size_t kEntryBytes = 12;
+
+/// Behind the chunk: a record a connection.
+void put_index(Bytes& bytes, const ChunkIndex& index) {
+  for (const auto& [connection, list] : index.entries) {
+    put_ros1_record(bytes,
+                    {{"op", op(4)},
+                     {"ver", raw(std::uint32_t{1})},
+                     {"conn", raw(connection)},
+                     {"count", raw(static_cast<std::uint32_t>(list.size() / kEntryBytes))}},
+                    list);
+  }
+}
+
+/// At the end of the bag.
+void put_chunk_info(Bytes& bytes, const ChunkIndex& index) {
+  Bytes counts;
+  for (const auto& [connection, list] : index.entries) {
+    put(counts, connection);
+    put(counts, static_cast<std::uint32_t>(list.size() / kEntryBytes));
+  }
+  put_ros1_record(bytes,
+                  {{"op", op(6)},
+                   {"ver", raw(std::uint32_t{1})},
+                   {"chunk_pos", raw(index.position)},
+                   {"start_time", ros1_time(index.begin)},
+                   {"end_time", ros1_time(index.end)},
+                   {"count", raw(static_cast<std::uint32_t>(index.entries.size()))}},
+                  counts);
+}
+
 void put_connection(Bytes& bytes, std::uint32_t number, const MadeMessage& message) {
+  const Definition definition = definition_of(message.type);
   put_ros1_record(bytes, {{"op", op(7)}, {"conn", raw(number)}, {"topic", message.topic}},
                   ros1_head({{"topic", message.topic},
                              {"type", message.type},
-                             {"md5sum", "0123"},
-                             {"message_definition", "float64 x"}}));
+                             {"md5sum", definition.md5sum},
+                             {"message_definition", definition.text}}));
 }
 
 void put_mcap_record(Bytes& bytes, int code, const Bytes& content) {
@@ -154,9 +235,12 @@ void run(sqlite3* database, const std::string& query) {
 Bytes compressed(const std::string& name, const Bytes& bytes) {
   Bytes packed;
   if (name == "lz4") {
-    packed.resize(LZ4F_compressFrameBound(bytes.size(), nullptr));
-    packed.resize(
-        LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr));
+    LZ4F_preferences_t as_ros_wants = {};  // its own library reads no other frames
+    as_ros_wants.frameInfo.blockMode = LZ4F_blockIndependent;
+    as_ros_wants.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
+    packed.resize(LZ4F_compressFrameBound(bytes.size(), &as_ros_wants));
+    packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(),
+                                     &as_ros_wants));
   } else if (name == "zstd") {
     packed.resize(ZSTD_compressBound(bytes.size()));
     packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 1));
@@ -182,26 +266,30 @@ void write_bytes(const std::filesystem::path& file, const Bytes& bytes) {
 Bytes made_ros1_bag(const std::vector<MadeMessage>& messages, const BagOptions& options) {
   const auto numbers = numbered(messages);
   const std::string magic = "#ROSBAG V2.0\n";
-  const auto bag_head = [&](std::uint64_t index, std::uint32_t connections) {
+  const auto bag_head = [&](std::uint64_t index, std::size_t connections, std::size_t chunks) {
     Bytes head;
     put_ros1_record(head,
                     {{"op", op(3)},
                      {"index_pos", raw(index)},
-                     {"conn_count", raw(connections)},
-                     {"chunk_count", raw(std::uint32_t{0})}},
+                     {"conn_count", raw(static_cast<std::uint32_t>(connections))},
+                     {"chunk_count", raw(static_cast<std::uint32_t>(chunks))}},
                     Bytes(64, ' '));
     return head;
   };
   Bytes file(magic.begin(), magic.end());
-  put(file, bag_head(0, 0));
+  put(file, bag_head(0, 0, 0));
   std::map<std::string, bool> told;
+  std::vector<ChunkIndex> indices;
   for (std::size_t first = 0; first < messages.size(); first += options.messages_a_chunk) {
     Bytes chunk;
+    ChunkIndex& index = indices.emplace_back();
+    index.position = file.size();
     const std::size_t end = std::min(messages.size(), first + options.messages_a_chunk);
     for (std::size_t i = first; i < end; ++i) {
       const MadeMessage& m = messages[i];
       const std::uint32_t number = numbers.at(m.topic);
       if (!std::exchange(told[m.topic], true)) put_connection(chunk, number, m);
+      index.add(number, m.received, chunk.size());
       put_ros1_record(
           chunk, {{"op", op(2)}, {"conn", raw(number)}, {"time", ros1_time(m.received)}}, m.bytes);
     }
@@ -210,12 +298,10 @@ Bytes made_ros1_bag(const std::vector<MadeMessage>& messages, const BagOptions& 
                      {"compression", options.compression},
                      {"size", raw(static_cast<std::uint32_t>(chunk.size()))}},
                     compressed(options.compression, chunk));
-    put_ros1_record(file, {{"op", op(4)}, {"ver", raw(std::uint32_t{1})}}, Bytes(12, 1));
+    put_index(file, index);
   }
   if (!options.index) return file;
   const std::uint64_t index = file.size();
-  std::map<std::string, std::uint32_t> counts;
-  for (const MadeMessage& m : messages) ++counts[m.topic];
   for (const auto& [topic, number] : numbers) {
     for (const MadeMessage& m : messages) {
       if (m.topic != topic) continue;
@@ -223,17 +309,8 @@ Bytes made_ros1_bag(const std::vector<MadeMessage>& messages, const BagOptions& 
       break;
     }
   }
-  Bytes data;
-  for (const auto& [topic, count] : counts) {
-    put(data, std::uint32_t{numbers.at(topic)});
-    put(data, count);
-  }
-  put_ros1_record(file,
-                  {{"op", op(6)},
-                   {"start_time", ros1_time(messages.front().received)},
-                   {"end_time", ros1_time(messages.back().received)}},
-                  data);
-  const Bytes head = bag_head(index, static_cast<std::uint32_t>(numbers.size()));
+  for (const ChunkIndex& chunk : indices) put_chunk_info(file, chunk);
+  const Bytes head = bag_head(index, numbers.size(), indices.size());
   std::copy(head.begin(), head.end(), file.begin() + static_cast<std::ptrdiff_t>(magic.size()));
   return file;
 }

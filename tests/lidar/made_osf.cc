@@ -101,7 +101,36 @@ Bytes raw(const std::vector<T>& values) {
   return bytes;
 }
 
-Bytes scan_message(const SensorInfo& info, int frame, bool png, bool timed) {
+/// The scan's own fields with its inertial samples.
+FlatWriter::Field imu_fields(FlatWriter& flat, const SensorInfo& info, int frame, int count) {
+  std::vector<std::uint64_t> times;
+  std::vector<std::uint16_t> valid;
+  std::vector<float> accelerations, rates;
+  for (int i = 0; i < count; ++i) {
+    const MadeOsfSample sample = made_osf_sample(info, frame, i);
+    times.push_back(static_cast<std::uint64_t>(sample.stamp));
+    valid.push_back(i % 5 == 4 ? 0 : 1);
+    for (int k = 0; k < 3; ++k) accelerations.push_back(sample.acceleration[k]);
+    for (int k = 0; k < 3; ++k) rates.push_back(sample.rate[k]);
+  }
+  const auto rows = static_cast<std::size_t>(count);
+  const auto bits = [&](const std::vector<float>& values) {
+    std::vector<std::uint32_t> all(values.size());
+    std::memcpy(all.data(), values.data(), 4 * values.size());
+    return packed32(all, rows, 3);
+  };
+  const auto field = [&](const char* name, const Bytes& data) {
+    return std::vector<FlatWriter::Field>{flat.text(name),
+                                          FlatWriter::number(std::uint8_t{9}),
+                                          {},
+                                          FlatWriter::number(std::int64_t{4}),
+                                          flat.vector(data, data.size())};
+  };
+  return flat.tables({field("IMU_TIMESTAMP", raw(times)), field("IMU_STATUS", raw(valid)),
+                      field("IMU_ACC", bits(accelerations)), field("IMU_GYRO", bits(rates))});
+}
+
+Bytes scan_message(const SensorInfo& info, int frame, bool png, bool timed, int imu) {
   const auto ranges = made_ranges(info, frame);
   FlatWriter flat;
   const Bytes channel = png ? png32(ranges, info)
@@ -112,11 +141,15 @@ Bytes scan_message(const SensorInfo& info, int frame, bool png, bool timed) {
     times.push_back(static_cast<std::uint64_t>(made_time(info, frame, column)));
   }
   const auto columns = static_cast<std::size_t>(info.columns);
-  return flat.buffer({flat.tables({{flat.vector(channel, channel.size())}}), flat.vector({1, 3}, 1),
+  return flat.buffer({flat.tables({{flat.vector(channel, channel.size())}}),
+                      flat.vector({1, 3}, 1),
                       timed ? flat.vector(raw(times), columns) : flat.vector({}, 0),
                       flat.vector(raw(std::vector<std::uint16_t>(columns, 0)), columns),
                       flat.vector(raw(std::vector<std::uint32_t>(columns, 1)), columns),
-                      FlatWriter::number(std::int32_t{100 + frame})},
+                      FlatWriter::number(std::int32_t{100 + frame}),
+                      {},
+                      {},
+                      imu > 0 ? imu_fields(flat, info, frame, imu) : FlatWriter::Field{}},
                      "    ", true);
 }
 
@@ -180,12 +213,19 @@ SensorInfo osf_sensor() {
   return info;
 }
 
-Bytes made_osf(const SensorInfo& info, int frames, bool png, bool timed) {
+MadeOsfSample made_osf_sample(const SensorInfo& info, int frame, int i) {
+  const auto step = static_cast<float>(i);
+  return {made_time(info, frame, 0) + 1'000'000 + i * 9'000'000,
+          {0.01F * step, -0.1F, 1},
+          {step, 2, -3.5F * static_cast<float>(frame)}};
+}
+
+Bytes made_osf(const SensorInfo& info, int frames, bool png, bool timed, int imu) {
   FlatWriter flat;
   Bytes file;
   add_block(file, flat.buffer({FlatWriter::number(std::uint64_t{2})}, "OSF$", true));
   for (int frame = 0; frame < frames; ++frame) {
-    const Bytes message = scan_message(info, frame, png, timed);
+    const Bytes message = scan_message(info, frame, png, timed, imu);
     add_block(file, flat.buffer({flat.tables({{FlatWriter::number(std::uint64_t{1}),
                                                FlatWriter::number(std::uint32_t{2}),
                                                flat.vector(message, message.size())}})},

@@ -10,7 +10,16 @@ namespace saker::lidar::testing {
 
 /// Frames of made_sensor.h, one a chunk. \param png  as older files have their images
 /// \param timed  false: scans without a time of a column
-[[nodiscard]] Bytes made_osf(const SensorInfo& info, int frames, bool png, bool timed = true);
+/// \param imu    samples in each scan, as made_osf_sample has them; every fifth is not valid
+[[nodiscard]] Bytes made_osf(const SensorInfo& info, int frames, bool png, bool timed = true,
+                             int imu = 0);
+
+/// In the inertial unit's axes, g and degrees a second.
+struct MadeOsfSample {
+  Time stamp;
+  Eigen::Vector3f acceleration, rate;
+};
+[[nodiscard]] MadeOsfSample made_osf_sample(const SensorInfo& info, int frame, int i);
 
 /// Today's packing of 32-bit numbers, by its description: planes of blue, green less blue, green
 /// less red and the fourth byte, each less its left neighbour.

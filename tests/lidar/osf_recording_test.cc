@@ -40,6 +40,28 @@ TEST(OsfRecording, ScansOfTodaysAndOfOlderFilesAreTheSame) {
   }
 }
 
+TEST(OsfRecording, InertialSamplesOfAScanComeWithItInTheLidarsFrame) {
+  const TemporaryFolder folder;
+  testing::write_bytes(folder / "drive", made_osf(osf_sensor(), 3, false, true, 10));
+  const auto source = open_recording(folder / "drive");
+  const Eigen::Matrix3d R = osf_sensor().T_sensor_imu.linear();
+  for (int frame = 0; frame < 3; ++frame) {
+    const auto read = source->next();
+    ASSERT_TRUE(read);
+    ASSERT_EQ(read->imu.size(), 8U);  // two of ten are not valid
+    for (int i = 0, k = 0; i < 10; ++i) {
+      if (i % 5 == 4) continue;
+      const testing::MadeOsfSample made = testing::made_osf_sample(osf_sensor(), frame, i);
+      const ImuSample& sample = read->imu[static_cast<std::size_t>(k++)];
+      EXPECT_EQ(sample.stamp, made.stamp);
+      EXPECT_LT((sample.acceleration - R * made.acceleration.cast<double>() * 9.80665).norm(),
+                1e-5);
+      EXPECT_LT((sample.angular_velocity - R * made.rate.cast<double>() * M_PI / 180).norm(), 1e-6);
+    }
+  }
+  EXPECT_EQ(source->counters().imu_samples, 24);
+}
+
 TEST(OsfRecording, AnotherSensorThanTheOneThatIsThereIsRefused) {
   const TemporaryFolder folder;
   testing::write_bytes(folder / "drive", made_osf(osf_sensor(), 1, false));

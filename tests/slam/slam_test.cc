@@ -216,6 +216,24 @@ TEST(Slam, GivenThePosesPlacesAreKnownBetterAndSizesAsWell) {
   }
 }
 
+TEST(Slam, WhatWasSeenOnceIsTentativeUntilItIsInTheMap) {
+  Drive drive({}, Robot(ring_of_objects(15, 6), {}, 7));
+  const auto poses = loop(15, 1);
+  drive.along({poses.begin(), poses.begin() + 1});
+  EXPECT_TRUE(drive.slam.map().objects.empty());
+  const auto once = drive.slam.tentative();
+  ASSERT_FALSE(once.empty());
+  for (const objects::MapObject& object : once) EXPECT_EQ(object.observations, 1);
+  Drive whole({}, Robot(ring_of_objects(15, 6), {}, 7));
+  whole.along(poses);
+  const objects::ObjectMap map = whole.slam.map();
+  ASSERT_FALSE(map.objects.empty());
+  for (const objects::MapObject& object : whole.slam.tentative()) {
+    EXPECT_TRUE(std::ranges::none_of(
+        map.objects, [&](const objects::MapObject& mapped) { return mapped.id == object.id; }));
+  }
+}
+
 TEST(Slam, TwoRunsAreIdentical) {
   std::string maps[2];
   for (std::string& bytes : maps) {

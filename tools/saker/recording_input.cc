@@ -13,7 +13,8 @@ std::unique_ptr<lidar::ScanSource> RecordingInput::open() const {
 void add_recording_input(CLI::App& app, const std::string& name, RecordingInput& input) {
   app.add_option(name, input.path, kRecordings)->required();
   app.add_option("--meta", input.options.metadata,
-                 "metadata (JSON) of an Ouster sensor; else beside the capture or in it")
+                 "metadata (JSON) of an Ouster sensor, calibration of another's; else beside the "
+                 "capture or in it")
       ->type_name("FILE");
   app.add_option("--sensor", input.options.sensor,
                  "serial number or address, where a capture has several sensors")

@@ -22,8 +22,7 @@ void add_recording_input(CLI::App& app, const std::string& name, RecordingInput&
 
 /// As --help says what may be given.
 inline constexpr const char* kRecordings =
-    "a folder of scans (*.bin, PCD, PLY, .npy) or one, an Ouster capture (*.pcap) or OSF file, a "
-    "ROS "
-    "bag (1, 2) or MCAP, told by its content";
+    "a folder of scans (*.bin, PCD, PLY, .npy) or one, a capture (*.pcap) of Ouster, Velodyne or "
+    "Hesai, OSF, a ROS bag (1, 2) or MCAP, told by its content";
 
 }  // namespace saker::tools

@@ -44,9 +44,29 @@ BagRecording::BagRecording(const RecordingParts& parts, const RecordingOptions& 
                     options.keep_ranges);
   } else {
     take_mount(prelude);
+    if (choice_.kind == ScanMessage::kSpinningPackets) begin_spinning(parts, options);
     expected_ = static_cast<int>(std::min<long>(file_->topics()[choice_.scans.front()].messages,
                                                 std::numeric_limits<int>::max()));
   }
+}
+
+/// The first packet says of which sensor they are.
+void BagRecording::begin_spinning(const RecordingParts& parts, const RecordingOptions& options) {
+  const auto file = open_messages(parts);
+  std::string unread = "no packet";
+  while (const auto message = file->next()) {
+    if (!is_scan(message->topic)) continue;
+    const Topic& topic = file->topics()[message->topic];
+    for (const TimedPacket& packet : read_packets(message->bytes, topic.encoding, topic.type)) {
+      if (const auto first = read_spinning_packet(packet.bytes)) {
+        spinning_.emplace(
+            calibrated_model(first->kind, options.metadata, parts.files.front(), sensor_note_));
+        return;
+      }
+      if (const std::string is = unread_spinning_packet(packet.bytes); !is.empty()) unread = is;
+    }
+  }
+  throw Error(where_ + ": " + choice_.name + ": no packets that are read, found " + unread);
 }
 
 BagRecording::Prelude BagRecording::read_prelude(const RecordingParts& parts) const {
@@ -106,6 +126,12 @@ std::optional<Frame> BagRecording::next() {
     } else {
       over_ = true;
       if (stream_) stream_->finish();
+      if (spinning_) spinning_->finish();
+    }
+    while (spinning_) {
+      auto frame = spinning_->take();
+      if (!frame) break;
+      pending_.push_back(std::move(*frame));
     }
     while (stream_) {
       auto item = stream_->take();
@@ -144,6 +170,7 @@ void BagRecording::take(const Message& message) {
   if (static_cast<int>(message.topic) == choice_.imu) return take_imu(message, encoding);
   if (!is_scan(message.topic)) return;
   if (stream_) return take_packet(message, encoding);
+  if (spinning_) return take_spinning(message, file_->topics()[message.topic]);
   take_cloud(message, encoding);
 }
 
@@ -212,15 +239,28 @@ void BagRecording::take_packet(const Message& message, Encoding encoding) {
   stream_->add(longer ? packet->first(packet->size() - 1) : *packet);
 }
 
+void BagRecording::take_spinning(const Message& message, const Topic& topic) {
+  const auto packets = read_packets(message.bytes, topic.encoding, topic.type);
+  if (packets.empty()) ++counters_.bad_packets;
+  for (const TimedPacket& packet : packets) spinning_->add(packet.bytes, packet.received);
+}
+
 SourceCounters BagRecording::counters() const {
   SourceCounters counters = stream_ ? stream_->counters() : counters_;
   if (stream_) counters.bad_packets += counters_.bad_packets;
+  if (spinning_) {
+    const SourceCounters from = spinning_->counters();
+    counters.bad_packets += from.bad_packets;
+    counters.missing_columns += from.missing_columns;
+    counters.clock_steps += from.clock_steps;
+  }
   counters.ended_early = one_line(file_->amiss());
   return counters;
 }
 
 std::string BagRecording::note() const {
   std::string text = "scans of " + choice_.name;
+  if (!sensor_note_.empty()) text += " (" + sensor_note_ + ")";
   if (stream_) return text;
   text += choice_.imu >= 0 ? ", inertial samples of " + choice_.imu_name
                            : ", no inertial samples in it";

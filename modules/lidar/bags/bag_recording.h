@@ -12,6 +12,7 @@
 #include "saker/lidar/clouds/point_layout.h"
 #include "saker/lidar/ouster_stream.h"
 #include "saker/lidar/recording.h"
+#include "saker/lidar/spinning/spinning_capture.h"
 
 namespace saker::lidar {
 
@@ -31,6 +32,9 @@ class BagRecording : public ScanSource {
   [[nodiscard]] SourceCounters counters() const override;
   [[nodiscard]] int expected_scans() const override { return expected_; }
   [[nodiscard]] std::string note() const override;
+  [[nodiscard]] std::string sensor_name() const override {
+    return spinning_ ? spinning_->model().name : std::string();
+  }
   [[nodiscard]] const AssembledScan* assembled() const override {
     return stream_ ? &given_ : nullptr;
   }
@@ -47,6 +51,8 @@ class BagRecording : public ScanSource {
   [[nodiscard]] Prelude read_prelude(const RecordingParts& parts) const;
   void hear(const Message& message, const Topic& topic, Prelude& prelude) const;
   void take_mount(const Prelude& prelude);
+  void begin_spinning(const RecordingParts& parts, const RecordingOptions& options);
+  void take_spinning(const Message& message, const Topic& topic);
   [[nodiscard]] bool is_scan(std::size_t topic) const;
   void take(const Message& message);
   void take_cloud(const Message& message, Encoding encoding);
@@ -58,8 +64,10 @@ class BagRecording : public ScanSource {
   std::string where_;
   std::unique_ptr<MessageFile> file_;
   TopicChoice choice_;
-  std::optional<OusterStream> stream_;  // of packets
-  std::optional<PointReader> reader_;   // of clouds; made for the first
+  std::optional<OusterStream> stream_;      // of packets
+  std::optional<SpinningStream> spinning_;  // of packets of another maker
+  std::string sensor_note_;
+  std::optional<PointReader> reader_;  // of clouds; made for the first
   Eigen::Matrix3d R_lidar_imu_ = Eigen::Matrix3d::Identity();
   double acceleration_unit_ = 1;  // m/s²
   std::string mount_note_;

@@ -7,9 +7,23 @@
 #include "saker/lidar/bags/mcap_file.h"
 #include "saker/lidar/bags/ros1_bag.h"
 #include "saker/lidar/bags/ros2_database.h"
+#include "saker/lidar/bags/unpacked_file.h"
 
 namespace saker::lidar {
 namespace {
+
+std::unique_ptr<MessageFile> open_plain(RecordingKind kind, const std::filesystem::path& file) {
+  switch (kind) {
+    case RecordingKind::kRos1Bag:
+      return std::make_unique<Ros1Bag>(file);
+    case RecordingKind::kMcap:
+      return std::make_unique<McapFile>(file);
+    case RecordingKind::kRos2Database:
+      return std::make_unique<Ros2Database>(file);
+    default:
+      throw Error(file.string() + ": no file of messages, expected a ROS bag or MCAP");
+  }
+}
 
 class MessageChain : public MessageFile {
  public:
@@ -62,19 +76,34 @@ class MessageChain : public MessageFile {
 
 }  // namespace
 
-std::unique_ptr<MessageFile> open_messages(RecordingKind kind, const std::filesystem::path& file) {
-  switch (kind) {
-    case RecordingKind::kRos1Bag:
-      return std::make_unique<Ros1Bag>(file);
-    case RecordingKind::kMcap:
-      return std::make_unique<McapFile>(file);
-    case RecordingKind::kRos2Database:
-      return std::make_unique<Ros2Database>(file);
-    default:
-      throw Error(file.string() + ": no file of messages, expected a ROS bag or MCAP");
-  }
-}
+namespace {
 
+/// A file that was packed as a whole.
+class UnpackedMessages : public MessageFile {
+ public:
+  UnpackedMessages(RecordingKind kind, const std::filesystem::path& file)
+      : unpacked_(file), file_(open_plain(kind, unpacked_.path())) {}
+
+  [[nodiscard]] const std::vector<Topic>& topics() const override { return file_->topics(); }
+  [[nodiscard]] std::optional<Message> next() override { return file_->next(); }
+  [[nodiscard]] Time begin() const override { return file_->begin(); }
+  [[nodiscard]] Time end() const override { return file_->end(); }
+  [[nodiscard]] std::string amiss() const override {
+    const std::string amiss = file_->amiss();
+    return amiss.empty() && unpacked_.cut() ? "cut or damaged" : amiss;
+  }
+
+ private:
+  UnpackedFile unpacked_;
+  std::unique_ptr<MessageFile> file_;
+};
+
+}  // namespace
+
+std::unique_ptr<MessageFile> open_messages(RecordingKind kind, const std::filesystem::path& file) {
+  if (is_zstd(file)) return std::make_unique<UnpackedMessages>(kind, file);
+  return open_plain(kind, file);
+}
 std::unique_ptr<MessageFile> open_messages(const RecordingParts& parts) {
   if (parts.files.size() == 1) return open_messages(parts.kind, parts.files.front());
   return std::make_unique<MessageChain>(parts);

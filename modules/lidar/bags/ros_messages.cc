@@ -65,11 +65,15 @@ void MessageReader::skip_numbers(std::size_t numbers) {
   for (std::size_t i = 0; i < numbers; ++i) (void)number<double>();
 }
 
+Time MessageReader::time() {
+  const Time seconds = cdr_ ? number<std::int32_t>() : Time{number<std::uint32_t>()};
+  return seconds * kNanosecondsPerSecond + number<std::uint32_t>();
+}
+
 MessageReader::Header MessageReader::header() {
   Header header;
   if (!cdr_) (void)number<std::uint32_t>();  // its number
-  const Time seconds = cdr_ ? number<std::int32_t>() : Time{number<std::uint32_t>()};
-  header.stamp = seconds * kNanosecondsPerSecond + number<std::uint32_t>();
+  header.stamp = time();
   header.frame = without_slash(text());
   return header;
 }
@@ -150,6 +154,28 @@ std::optional<ByteView> read_packet(ByteView bytes, Encoding encoding) {
   const ByteView packet = reader.bytes();
   if (!reader.ok()) return std::nullopt;
   return packet;
+}
+
+std::vector<TimedPacket> read_packets(ByteView bytes, Encoding encoding, const std::string& type) {
+  constexpr std::size_t kVelodyneBytes = 1206, kPandarBytes = 1500, kLeastBytes = 12;
+  const bool velodyne = type == "velodyne_msgs/VelodyneScan";
+  const bool fixed = velodyne || type == "pandar_msgs/PandarScan";
+  MessageReader reader(bytes, encoding);
+  (void)reader.header();
+  std::vector<TimedPacket> packets;
+  const std::size_t count = reader.count(kLeastBytes);
+  for (std::size_t i = 0; i < count; ++i) {
+    TimedPacket packet;
+    packet.received = reader.time();
+    packet.bytes = fixed ? reader.array(velodyne ? kVelodyneBytes : kPandarBytes) : reader.bytes();
+    if (!velodyne) {
+      const std::size_t size = reader.number<std::uint32_t>();
+      if (size <= packet.bytes.size()) packet.bytes = packet.bytes.first(size);
+    }
+    if (!reader.ok()) break;
+    packets.push_back(packet);
+  }
+  return packets;
 }
 
 std::optional<std::string> read_string(ByteView bytes, Encoding encoding) {

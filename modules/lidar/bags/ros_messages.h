@@ -30,6 +30,9 @@ class MessageReader {
   /// Elements of a sequence of at least so many bytes each; 0 where there are fewer.
   [[nodiscard]] std::size_t count(std::size_t least_bytes = 1);
   void skip_numbers(std::size_t numbers);  ///< of float64
+  /// An array of so many bytes.
+  [[nodiscard]] ByteView array(std::size_t bytes) { return cursor_.take(bytes); }
+  [[nodiscard]] Time time();
 
   struct Header {
     Time stamp = 0;
@@ -64,6 +67,15 @@ struct ImuMessage {
 
 /// ouster_ros/PacketMsg: the packet.
 [[nodiscard]] std::optional<ByteView> read_packet(ByteView bytes, Encoding encoding);
+
+/// Packets of a spinning sensor: velodyne_msgs/VelodyneScan, pandar_msgs/PandarScan (arrays of
+/// fixed length), hesai_lidar/PandarScan and hesai_ros_driver/UdpFrame (sequences).
+struct TimedPacket {
+  Time received = 0;
+  ByteView bytes;
+};
+[[nodiscard]] std::vector<TimedPacket> read_packets(ByteView bytes, Encoding encoding,
+                                                    const std::string& type);
 
 /// std_msgs/String.
 [[nodiscard]] std::optional<std::string> read_string(ByteView bytes, Encoding encoding);

@@ -28,6 +28,11 @@ bool is_packet(const Topic& topic) {
   return has_type(topic, {"ouster_ros/PacketMsg", "ouster_sensor_msgs/PacketMsg"});
 }
 
+bool is_spinning(const Topic& topic) {
+  return has_type(topic, {"velodyne_msgs/VelodyneScan", "pandar_msgs/PandarScan",
+                          "hesai_lidar/PandarScan", "hesai_ros_driver/UdpFrame"});
+}
+
 std::string space_of(const std::string& name) { return name.substr(0, name.rfind('/')); }
 
 /// One topic with scans, or the packets of one sensor.
@@ -45,6 +50,9 @@ std::vector<Candidate> candidates_in(const std::vector<Topic>& topics) {
     if (is_cloud(topic) || is_livox(topic)) {
       const auto kind = is_cloud(topic) ? ScanMessage::kPointCloud2 : ScanMessage::kLivox;
       found.push_back({kind, {i}, topic.name, topic.messages});
+    }
+    if (is_spinning(topic)) {
+      found.push_back({ScanMessage::kSpinningPackets, {i}, topic.name, topic.messages});
     }
     if (!is_packet(topic)) continue;
     const auto same = std::find_if(found.begin(), found.end(), [&](const Candidate& c) {
@@ -108,8 +116,8 @@ const Candidate& choose(const std::vector<Candidate>& candidates, const std::vec
                         const Names& wanted, const std::string& where) {
   if (candidates.empty()) {
     throw Error(where +
-                ": no topic with scans (sensor_msgs/PointCloud2, Ouster's packets, Livox's " +
-                "CustomMsg), found " + list_of(topics, describe));
+                ": no topic with scans (sensor_msgs/PointCloud2, packets of Ouster, Velodyne " +
+                "and Hesai, Livox's CustomMsg), found " + list_of(topics, describe));
   }
   for (const Candidate& candidate : candidates) {
     for (const std::size_t topic : candidate.topics) {
@@ -118,6 +126,11 @@ const Candidate& choose(const std::vector<Candidate>& candidates, const std::vec
     }
   }
   if (candidates.size() == 1) return candidates.front();
+  // A driver's cloud beside the packets that it was made of counts alone.
+  const auto cloud = [](const Candidate& c) { return c.kind != ScanMessage::kSpinningPackets; };
+  if (std::count_if(candidates.begin(), candidates.end(), cloud) == 1) {
+    return *std::find_if(candidates.begin(), candidates.end(), cloud);
+  }
   throw Error(where + ": " + std::to_string(candidates.size()) + " topics with scans, " +
               list_of(candidates,
                       [&](const Candidate& c) {

@@ -8,7 +8,7 @@
 /// Which topics of a bag hold the scans and the inertial samples.
 namespace saker::lidar {
 
-enum class ScanMessage { kPointCloud2, kLivox, kOusterPackets };
+enum class ScanMessage { kPointCloud2, kLivox, kOusterPackets, kSpinningPackets };
 
 struct TopicChoice {
   ScanMessage kind = ScanMessage::kPointCloud2;

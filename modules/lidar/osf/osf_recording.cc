@@ -7,6 +7,7 @@
 #include "saker/lidar/bags/decompress.h"
 #include "saker/lidar/metadata.h"
 #include "saker/lidar/osf/osf_image.h"
+#include "saker/lidar/osf/osf_imu.h"
 #include "saker/lidar/ouster_stream.h"
 
 namespace saker::lidar {
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t kCheckBytes = 4;  // behind each block
 constexpr std::size_t kLargestBlock = std::size_t{1} << 30;
 constexpr std::size_t kLargestMetadata = 16 << 20;
+constexpr std::size_t kMostImuWaiting = 16384;  // 40 s at 400 Hz
 constexpr std::uint8_t kRangeField = 1, kReflectivityField = 5;
 
 // Fields of the tables, in their order in the vendor's schemas.
@@ -207,6 +209,19 @@ std::string OsfRecording::take_scan(const FlatTable& scan) {
   return "";
 }
 
+void OsfRecording::take_imu(const FlatTable& message) {
+  for (const ImuSample& sample : osf_imu_samples(message, info_)) {
+    if (sample.stamp <= newest_imu_) {
+      ++counters_.late_imu_samples;
+      continue;
+    }
+    newest_imu_ = sample.stamp;
+    ++counters_.imu_samples;
+    imu_.push_back(sample);
+    if (imu_.size() > kMostImuWaiting) imu_.pop_front();
+  }
+}
+
 std::optional<AssembledScan> OsfRecording::next_scan(std::string& fault) {
   while (true) {
     while (messages_.empty()) {
@@ -219,7 +234,9 @@ std::optional<AssembledScan> OsfRecording::next_scan(std::string& fault) {
     }
     const FlatTable message = messages_.front();
     messages_.pop_front();
-    fault = take_scan(FlatTable::root(message.bytes(kMessageBuffer), true));
+    const FlatTable content = FlatTable::root(message.bytes(kMessageBuffer), true);
+    take_imu(content);
+    fault = take_scan(content);
     auto scan = assembler_->take();
     if (scan || !fault.empty()) return scan ? std::move(*scan) : AssembledScan{};
   }
@@ -230,6 +247,10 @@ std::optional<Frame> OsfRecording::next() {
   auto scan = next_scan(frame.fault);
   if (!scan) return std::nullopt;
   frame.scan = std::move(scan->scan);
+  while (!imu_.empty() && imu_.front().stamp <= frame.scan.stamp) {
+    frame.imu.push_back(imu_.front());
+    imu_.pop_front();
+  }
   given_ = std::move(*scan);
   frame.name = running_name(next_name_++);
   counters_.faulty_scans += !frame.fault.empty();

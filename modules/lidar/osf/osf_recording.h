@@ -17,8 +17,9 @@ namespace saker::lidar {
 
 /// The vendor's OSF files, version 2 (chunks of FlatBuffers): scans with the sensor's metadata.
 ///
-/// Chunks are read from the first to the last. Inertial samples are not read. Of a file that is cut
-/// the scans up to the cut are read where the metadata stand in its beginning, too (firmware 3).
+/// Chunks are read from the first to the last. Inertial samples are those that scans hold
+/// (osf_imu.h). Of a file that is cut the scans up to the cut are read where the metadata stand in
+/// its beginning, too (firmware 3).
 class OsfRecording : public ScanSource {
  public:
   /// Throws Error when it is no OSF file, has no scans or no metadata, or several sensors and
@@ -27,8 +28,6 @@ class OsfRecording : public ScanSource {
 
   [[nodiscard]] std::optional<Frame> next() override;
   [[nodiscard]] SourceCounters counters() const override;
-  [[nodiscard]] std::string note() const override { return "OSF: inertial samples are not read"; }
-
   [[nodiscard]] const AssembledScan* assembled() const override { return &given_; }
   [[nodiscard]] const SensorInfo& info() const { return info_; }
 
@@ -49,6 +48,7 @@ class OsfRecording : public ScanSource {
   void find_streams(const RecordingOptions& options);
   void choose(const std::map<std::uint32_t, Stream>& streams, const std::string& sensor);
   [[nodiscard]] std::string take_scan(const FlatTable& message);
+  void take_imu(const FlatTable& message);
 
   std::string where_;
   FileBytes file_;
@@ -60,6 +60,8 @@ class OsfRecording : public ScanSource {
   std::unique_ptr<ScanAssembler> assembler_;
   std::optional<Block> chunk_;
   std::deque<FlatTable> messages_;  // of the chunk under way
+  std::deque<ImuSample> imu_;       // that wait for a scan that is not older
+  Time newest_imu_ = 0;
   AssembledScan given_;
   int next_name_ = 0;
   std::string amiss_;

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "tools/saker/picture/picture.h"
 
@@ -12,6 +16,7 @@ namespace {
 constexpr double kMargin_m =
     15;  // shown around trajectory and objects: beyond it points say little
 constexpr double kViewpoint_m = 0.4;  // radius of a ring: the vehicle's
+constexpr double kDash_m = 0.3;
 constexpr Colour kTruth = colours::kGrey;
 constexpr Colour kRobots[] = {colours::kPurple, colours::kOrange, colours::kSky,
                               colours::kYellow, colours::kGreen,  colours::kInk};
@@ -36,8 +41,10 @@ Extent extent_of(const MapView& view) {
   for (const RobotPath& robot : view.robots) {
     for (const Eigen::Vector3d& p : robot.positions) extent.include(p.head<2>());
   }
-  for (const objects::MapObject& object : view.map.objects) {
-    extent.include(objects::place(object.model).head<2>());
+  for (const auto* list : {&view.map.objects, &view.tentative}) {
+    for (const objects::MapObject& object : *list) {
+      extent.include(objects::place(object.model).head<2>());
+    }
   }
   return extent.grown(kMargin_m);
 }
@@ -50,6 +57,41 @@ void draw(Picture& picture, const objects::Model& model, Colour colour, int widt
     const auto& cylinder = std::get<objects::Cylinder>(model);
     picture.circle(cylinder.root.head<2>(), cylinder.radius, colour, width_px);
   }
+}
+
+/// A closed outline in strokes as long as the gaps between them.
+void draw_dashed(Picture& picture, const std::vector<Eigen::Vector2d>& corners, Colour colour) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d& from = corners[i];
+    const Eigen::Vector2d along = corners[(i + 1) % corners.size()] - from;
+    const int strokes = std::max(1, static_cast<int>(along.norm() / (2 * kDash_m)));
+    const double part = 1. / (2 * strokes);
+    for (int k = 0; k < strokes; ++k) {
+      const std::array<Eigen::Vector2d, 2> stroke = {from + 2 * k * part * along,
+                                                     from + (2 * k + 1) * part * along};
+      picture.polyline(stroke, colour, 2);
+    }
+  }
+}
+
+/// The outline of an object's ground; of a cylinder at least as large as others are drawn.
+std::vector<Eigen::Vector2d> outline(const objects::Model& model) {
+  std::vector<Eigen::Vector2d> corners;
+  if (const auto* cuboid = std::get_if<objects::Cuboid>(&model)) {
+    for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+      const Eigen::Vector3d corner(0.5 * x * cuboid->size.x(), 0.5 * y * cuboid->size.y(), 0);
+      corners.emplace_back((cuboid->pose * corner).head<2>());
+    }
+    return corners;
+  }
+  constexpr int kCorners = 8;
+  const auto& cylinder = std::get<objects::Cylinder>(model);
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * M_PI * i / kCorners;
+    corners.emplace_back(cylinder.root.head<2>() + std::max(cylinder.radius, kDash_m) *
+                                                       Eigen::Vector2d(cos(angle), sin(angle)));
+  }
+  return corners;
 }
 
 /// `Map from above: 3 vehicle, 2 trunk along 154 poses`.
@@ -78,6 +120,9 @@ std::vector<LegendEntry> legend_of(const MapView& view) {
   if (!view.viewpoints.empty()) {
     legend.push_back({Mark::ring, colours::kPurple, "viewpoint"});
   }
+  if (!view.tentative.empty()) {
+    legend.push_back({Mark::line, colours::kBlue, "dashed: seen too seldom for the map"});
+  }
   if (view.truth != nullptr) legend.push_back({Mark::rectangle, kTruth, "truth"});
   return legend;
 }
@@ -102,6 +147,9 @@ void write_map_picture(const std::filesystem::path& file, const MapView& view,
   }
   for (const objects::MapObject& object : view.map.objects) {
     draw(picture, object.model, colour_of(table[object.class_id]), 2);
+  }
+  for (const objects::MapObject& object : view.tentative) {
+    draw_dashed(picture, outline(object.model), colour_of(table[object.class_id]));
   }
   picture.title(title_of(view, table));
   picture.legend(legend_of(view));

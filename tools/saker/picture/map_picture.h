@@ -21,9 +21,10 @@ struct MapView {
   const objects::ObjectMap& map;
   const objects::ObjectMap* truth = nullptr;
   std::vector<Eigen::Vector3d> trajectory{};
-  std::vector<Eigen::Vector3d> viewpoints{};  ///< that were flown to
-  std::vector<RobotPath> robots{};            ///< of a team, instead of `trajectory`
-  std::vector<Eigen::Vector3d> cloud{};       ///< drawn thinly
+  std::vector<Eigen::Vector3d> viewpoints{};    ///< that were flown to
+  std::vector<RobotPath> robots{};              ///< of a team, instead of `trajectory`
+  std::vector<Eigen::Vector3d> cloud{};         ///< drawn thinly
+  std::vector<objects::MapObject> tentative{};  ///< beside the map: drawn dashed
 };
 
 /// Writes a PNG and an SVG: points, trajectory, objects with their class, the outlines of the true

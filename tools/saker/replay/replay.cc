@@ -7,6 +7,7 @@
 
 #include "flight/bus/scan_log.h"
 #include "saker/autonomy/lockstep.h"
+#include "saker/core/config_folder.h"
 #include "saker/core/error.h"
 #include "saker/core/files.h"
 #include "saker/core/progress.h"
@@ -17,6 +18,7 @@
 #include "tools/saker/configuration.h"
 #include "tools/saker/picture/map_picture.h"
 #include "tools/saker/recording_input.h"
+#include "tools/saker/replay/network_fit.h"
 #include "tools/saker/replay/run_recorder.h"
 #include "tools/saker/replay/shortfalls.h"
 #include "tools/saker/replay/trajectory_truth.h"
@@ -105,10 +107,10 @@ nlohmann::json source_figures(const lidar::SourceCounters& counters) {
           {"ended_early", counters.ended_early}};
 }
 
-std::map<std::string, int> object_counts(const objects::ObjectMap& map,
+std::map<std::string, int> object_counts(const std::vector<objects::MapObject>& objects,
                                          const objects::ClassTable& table) {
   std::map<std::string, int> counts;
-  for (const objects::MapObject& object : map.objects) ++counts[table[object.class_id].name];
+  for (const objects::MapObject& object : objects) ++counts[table[object.class_id].name];
   return counts;
 }
 
@@ -124,7 +126,11 @@ nlohmann::json figures(const autonomy::LockstepResult& result, double wall_s,
           {"segmentation_hz", duration > 0 ? (result.labelled_scans - 1) / duration : 0},
           {"slam_cycles", result.slam_cycles},
           {"keyframes", result.keyframes},
-          {"objects", object_counts(result.map, table)},
+          {"objects", object_counts(result.map.objects, table)},
+          {"tentative", object_counts(result.tentative, table)},
+          {"segmentation",
+           {{"probability", result.fit.probability},
+            {"classified_share", result.fit.classified_share}}},
           {"scans_not_registered", scans_not_used(result)}};
 }
 
@@ -149,6 +155,10 @@ void report(const nlohmann::json& results) {
                results["wall_s"].get<double>(), results["real_time_factor"].get<double>());
   spdlog::info("{:.1f} m flown, objects: {}", results["path_m"].get<double>(),
                results["objects"].dump());
+  if (!results["tentative"].empty()) {
+    spdlog::info("seen too seldom or not well enough for the map, dashed in map.png: {}",
+                 results["tentative"].dump());
+  }
 }
 
 int replay(const ReplayOptions& options, const CommonOptions& common) {
@@ -172,6 +182,10 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   if (result.scans.empty())
     throw Error(fmt::format("{}: no scan in it, expected at least one", options.input.path));
 
+  const auto network = core::find_in_configs(config.segmentation.model, "segmentation.model");
+  const std::string fit_note =
+      network_fit_note(result.fit, std::filesystem::path(network).replace_extension(".yaml"));
+  if (!fit_note.empty()) spdlog::warn("{}", fit_note);
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
@@ -187,7 +201,8 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
                     {.map = result.map,
                      .truth = truth ? &truth->map : nullptr,
                      .trajectory = positions(result.T_world_lidar),
-                     .cloud = recorder.cloud(result)},
+                     .cloud = recorder.cloud(result),
+                     .tentative = result.tentative},
                     config.objects);
   report(results);
   for (const std::string& line : short_of) spdlog::warn("{}", line);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "saker/core/files.h"
+#include "saker/objects/map_document.h"
 #include "saker/objects/map_io.h"
 
 namespace saker::tools {
@@ -11,6 +12,16 @@ namespace {
 constexpr std::size_t kPointsPerScan = 400;  // enough to see walls after a few scans
 constexpr std::size_t kMostPoints =
     1'000'000;  // 12 MB; after it the picture's background stops growing
+
+/// The map's JSON, with a list of its own for what is tentative: readers of maps pass it over.
+std::string json_with_tentative(const autonomy::LockstepResult& result,
+                                const objects::ClassTable& table) {
+  if (result.tentative.empty()) return objects::to_json(result.map, table);
+  objects::Document document = objects::to_document(result.map, table);
+  const objects::ObjectMap tentative{.objects = result.tentative, .ground = {}};
+  document["tentative"] = objects::to_document(tentative, table)["objects"];
+  return document.dump(1) + "\n";
+}
 
 }  // namespace
 
@@ -46,7 +57,7 @@ void RunRecorder::write(const autonomy::LockstepResult& result) {
   }
   core::write_file(out_ / "trajectory.txt", trajectory);
   core::write_file(out_ / "odometry.txt", odometry);
-  objects::write_map(out_ / "map.json", result.map, table_);
+  core::write_file(out_ / "map.json", json_with_tentative(result, table_));
   objects::write_map(out_ / "map.smap", result.map, table_);
 }
 

@@ -31,7 +31,7 @@ std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int 
   if (detections > 0 && result.map.objects.empty())
     lines.push_back(
         fmt::format("{} detections and no object: none was seen often enough to be sure of it "
-                    "(detections.jsonl)",
+                    "(`tentative` in map.json, detections.jsonl)",
                     detections));
   return lines;
 }
