@@ -93,11 +93,16 @@ void MissionLockstep::receive(Time now) {
   for (CommandAck& ack : plant_.take_acks()) acks_.push_back(std::move(ack));
 }
 
+/// When what a stage begins now is there.
+Time MissionLockstep::due(Stage stage, double latency_s, Time now) const {
+  return after(now, latency_s + (delays_ != nullptr ? delays_->extra_s(stage, now) : 0));
+}
+
 void MissionLockstep::ingest(Time now) {
   if (auto frame = ingestion_.take_newest()) {
-    scans_.push(after(now, config_.latency.odometry_s), timings_.time("odometry", [&] {
-      return ingestion_.register_scan(std::move(*frame));
-    }));
+    scans_.push(
+        due(Stage::registration, config_.latency.odometry_s, now),
+        timings_.time("odometry", [&] { return ingestion_.register_scan(std::move(*frame)); }));
   }
   heard_.lidar = ingestion_.newest_stamp();
   while (const auto scan = scans_.take(now)) take_scan(*scan, now);
@@ -127,7 +132,8 @@ void MissionLockstep::segment(const IngestedScan& scan, Time now) {
       return std::make_shared<const lidar::Labels>(segmentation.segment(*raw));
     });
   });
-  labels_.push(after(now, config_.latency.segmentation_s), {scan.registered, std::move(labels)});
+  labels_.push(due(Stage::segmentation, config_.latency.segmentation_s, now),
+               {scan.registered, std::move(labels)});
   ++result_.counters.labelled_scans;
 }
 
@@ -142,7 +148,7 @@ void MissionLockstep::map(Time now) {
                               motion = motion_log_.take(scan.stamp)](segmentation::Segmentation&) {
       return timings_.time("mapping", [&] { return mapping_.cycle(window, motion); });
     });
-    maps_.push(after(now, config_.latency.mapping_s), last_map_);
+    maps_.push(due(Stage::mapping, config_.latency.mapping_s, now), last_map_);
     ++result_.counters.slam_cycles;
   }
   while (const auto map = maps_.take(now)) {
@@ -167,7 +173,7 @@ void MissionLockstep::plan(Time now) {
   if (planning_schedule_.due(now)) {
     PlanningInput input{now,   orders_.planning,      odometry_, map_,
                         grid_, guidance_.committed(), verdict_};
-    plans_.push(after(now, config_.latency.planning_s),
+    plans_.push(due(Stage::planning, config_.latency.planning_s, now),
                 pool_.submit([this, input = std::move(input)](segmentation::Segmentation&) {
                   return timings_.time("planning", [&] {
                     return planning_.step(input,

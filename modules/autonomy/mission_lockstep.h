@@ -10,6 +10,7 @@
 #include "saker/autonomy/lockstep.h"
 #include "saker/autonomy/pipeline.h"
 #include "saker/autonomy/schedule.h"
+#include "saker/autonomy/stage_delays.h"
 #include "saker/autonomy/stepped.h"
 #include "saker/autonomy/supervisor.h"
 #include "saker/autonomy/worker_pool.h"
@@ -77,6 +78,10 @@ class MissionLockstep {
                   int threads, core::Timings& timings);
   ~MissionLockstep();
 
+  /// Stages are slower from now on as `delays` says, which has to outlive this; null: as
+  /// configured.
+  void delay_stages(const StageDelays* delays) { delays_ = delays; }
+
   /// Until it has landed, or for `limit_s` of the plant's time.
   [[nodiscard]] MissionResult run(double limit_s, MissionObserver& observer);
 
@@ -101,6 +106,7 @@ class MissionLockstep {
   void supervise(Time now);
   void guide(Time now);
   void send_trajectory();
+  [[nodiscard]] Time due(Stage stage, double latency_s, Time now) const;
   [[nodiscard]] MissionResult finish();
 
   Config config_;
@@ -108,6 +114,7 @@ class MissionLockstep {
   SteppedPlant& plant_;
   SteppedChecker& checker_;
   MissionObserver* observer_ = nullptr;  // during a run
+  const StageDelays* delays_ = nullptr;
 
   Ingestion ingestion_;
   BodyPose body_pose_;

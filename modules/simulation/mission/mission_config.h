@@ -20,10 +20,11 @@ enum class ScenarioEventKind {
   odometry_stop,    ///< none reaches the flight controller any more
   odometry_freeze,  ///< it gets the last pose again and again, with new stamps
   gust,
+  mover,  ///< a person or a vehicle that comes straight to where the vehicle was, and goes on
 };
 
 [[nodiscard]] inline std::vector<std::string> enum_names(ScenarioEventKind) {
-  return {"obstacle", "lidar_stop", "odometry_stop", "odometry_freeze", "gust"};
+  return {"obstacle", "lidar_stop", "odometry_stop", "odometry_freeze", "gust", "mover"};
 }
 
 struct ScenarioEvent {
@@ -38,22 +39,30 @@ struct ScenarioEvent {
   double gust_mps = 5;
   double towards_deg = 0;
   double gust_s = 2;
+  double mover_mps = 1;
+  bool since_begin = false;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("kind", kind, "", "obstacle, lidar_stop, odometry_stop, odometry_freeze or gust");
+    v.field("kind", kind, "",
+            "obstacle, lidar_stop, odometry_stop, odometry_freeze, gust or mover");
     v.field("at_s", at_s, {0, 7200}, "s", "after take-off");
+    v.field("since_begin", since_begin, "", "at_s counts from the begin, on the ground, instead");
     v.field("from_speed_mps", from_speed_mps, {0, 20}, "m/s",
             "not before it flies so fast over ground: what goes wrong matters most on the way");
     v.field("ahead_m", ahead_m, {0, 100}, "m",
-            "obstacle: so far in the direction of flight, across it; 0: at x_m, y_m");
+            "obstacle: so far in the direction of flight, across it; 0: at x_m, y_m; mover: it "
+            "comes from so far");
     v.field("x_m", x_m, {-1000, 1000}, "m", "obstacle: its place in `world`");
     v.field("y_m", y_m, {-1000, 1000}, "m", "obstacle: its place in `world`");
-    v.field("width_m", width_m, {0.1, 50}, "m", "obstacle: across the direction of flight");
-    v.field("height_m", height_m, {0.1, 50}, "m", "obstacle: above the take-off point");
+    v.field("width_m", width_m, {0.1, 50}, "m",
+            "obstacle: across the direction of flight; mover: of its sides");
+    v.field("height_m", height_m, {0.1, 50}, "m", "obstacle, mover: above the take-off point");
     v.field("gust_mps", gust_mps, {0, 30}, "m/s", "gust: on top of the wind");
-    v.field("towards_deg", towards_deg, {-360, 360}, "°", "gust: where it blows to, in `world`");
+    v.field("towards_deg", towards_deg, {-360, 360}, "°",
+            "gust, mover: where it blows or goes to, in `world`");
     v.field("gust_s", gust_s, {0, 600}, "s", "gust: how long");
+    v.field("mover_mps", mover_mps, {0.1, 30}, "m/s", "mover: its speed");
   }
 };
 

@@ -88,17 +88,19 @@ std::vector<int> ids_of(const objects::ObjectMap& map) {
   return ids;
 }
 
-/// A wall for each event that brings one in, waiting under the ground.
+/// A wall, person or vehicle for each event that brings one in, waiting under the ground.
 std::vector<std::size_t> add_inserted(World& world, const std::vector<ScenarioEvent>& events) {
   std::vector<std::size_t> movers;
   const MaterialId material = world.add({kOtherStructure, 0.4F, 0.05F, 0, 0, 0});
   for (const ScenarioEvent& event : events) {
-    if (event.kind != ScenarioEventKind::obstacle) continue;
-    constexpr double kHalfDepth = 0.15;
+    const bool moves = event.kind == ScenarioEventKind::mover;
+    if (event.kind != ScenarioEventKind::obstacle && !moves) continue;
+    constexpr double kWallHalfDepth = 0.15;
     constexpr double kFoundation = -3;
+    const double half_depth = moves ? event.width_m / 2 : kWallHalfDepth;
     Mesh mesh;
-    Pen(mesh).box({-kHalfDepth, -event.width_m / 2, kFoundation},
-                  {kHalfDepth, event.width_m / 2, event.height_m}, material);
+    Pen(mesh).box({-half_depth, -event.width_m / 2, kFoundation},
+                  {half_depth, event.width_m / 2, event.height_m}, material);
     world.prototypes.push_back(std::move(mesh));
     Eigen::Affine3f T = Eigen::Affine3f::Identity();
     T.translation().z() = kUnderground;

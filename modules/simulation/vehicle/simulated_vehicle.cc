@@ -160,6 +160,7 @@ void SimulatedVehicle::turn_lidar() {
   DatagramQueue nowhere;
   while (lidar_.block_end() <= now_) {
     if (!site_.flight.drivers.empty()) drive(site_.flight, to_seconds(now_ - start_), caster_);
+    if (!movers_.empty()) move_movers();
     const auto pose_at = [&](Time time) { return body_at(time) * T_body_lidar_; };
     if (!lidar_.turn(pose_at, lidar_on_ ? packets_ : nowhere)) continue;
     const Time stamp = lidar_.scan_stamp();
@@ -214,11 +215,12 @@ void SimulatedVehicle::run_events() {
     wind_.blow(Eigen::Vector3d::Zero());
     gust_ends_ = 0;
   }
-  if (took_off_ == 0) return;
-  const double since = to_seconds(now_ - took_off_);
+  if (events_.empty()) return;
+  const double flown = took_off_ == 0 ? -1 : to_seconds(now_ - took_off_);
   const double speed = body_.state().velocity.head<2>().norm();
   const auto due =
       std::stable_partition(events_.begin(), events_.end(), [&](const ScenarioEvent& event) {
+        const double since = event.since_begin ? to_seconds(now_ - start_) : flown;
         return event.at_s > since || event.from_speed_mps > speed;
       });
   for (auto event = due; event != events_.end(); ++event) begin(*event);
@@ -229,6 +231,8 @@ void SimulatedVehicle::begin(const ScenarioEvent& event) {
   switch (event.kind) {
     case ScenarioEventKind::obstacle:
       return insert_obstacle(event);
+    case ScenarioEventKind::mover:
+      return send_mover(event);
     case ScenarioEventKind::lidar_stop:
       lidar_on_ = false;
       return;
@@ -261,6 +265,25 @@ void SimulatedVehicle::insert_obstacle(const ScenarioEvent& event) {
             event.ahead_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
   const SE3 T = site_.T_sim_world * placed(place.x(), place.y(), 0, heading);
   caster_.move(site_.inserted[inserted_++], Eigen::Affine3d(T.matrix()).cast<float>());
+}
+
+/// Straight to where the vehicle is now, whatever stands between, and on.
+void SimulatedVehicle::send_mover(const ScenarioEvent& event) {
+  const double towards = event.towards_deg * std::numbers::pi / 180;
+  const Eigen::Vector2d from =
+      truth().T_world_body.translation().head<2>() -
+      event.ahead_m * Eigen::Vector2d(std::cos(towards), std::sin(towards));
+  const SE3 T = site_.T_sim_world * placed(from.x(), from.y(), 0, towards);
+  movers_.push_back({site_.inserted[inserted_++], now_, T, event.mover_mps});
+}
+
+void SimulatedVehicle::move_movers() {
+  for (const Mover& mover : movers_) {
+    SE3 T = mover.T_sim_start;
+    const double way_m = mover.speed_mps * to_seconds(now_ - mover.since);
+    T.translation() += way_m * T.linear().col(0);
+    caster_.move(mover.index, Eigen::Affine3d(T.matrix()).cast<float>());
+  }
 }
 
 }  // namespace saker::simulation

@@ -85,6 +85,8 @@ class SimulatedVehicle {
   void run_events();
   void begin(const ScenarioEvent& event);
   void insert_obstacle(const ScenarioEvent& event);
+  void send_mover(const ScenarioEvent& event);
+  void move_movers();
   [[nodiscard]] bool every(int ticks) const { return ticks_ % ticks == 0; }
   [[nodiscard]] SE3 body_at(Time time) const;
   [[nodiscard]] SE3 T_world_sim() const { return site_.T_sim_world.inverse(); }
@@ -127,6 +129,13 @@ class SimulatedVehicle {
 
   std::vector<ScenarioEvent> events_;  // that have not begun
   std::size_t inserted_ = 0;
+  struct Mover {
+    std::size_t index = 0;  // of the world's movers
+    Time since = 0;
+    SE3 T_sim_start;
+    double speed_mps = 0;  // along its x
+  };
+  std::vector<Mover> movers_;  // on their way
   Time gust_ends_ = 0;
   bool lidar_on_ = true;
   bool odometry_on_ = true;
