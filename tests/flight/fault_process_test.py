@@ -49,6 +49,7 @@ class Fault(unittest.TestCase):
     def says(self, flight, process, cause):
         self.assertIn(cause, flight.log(process), flight.logs())
 
+    # Hazard: Stages and links | the executive is killed in flight | the flight controller holds, then lands | 2
     def test_executive_killed(self):
         flight = self.fly()
         begin = flight.fly_fast()
@@ -56,6 +57,7 @@ class Fault(unittest.TestCase):
         self.settles(flight, begin)
         self.says(flight, "saker-sim", "no odometry")
 
+    # Hazard: Stages and links | the collision checker is killed | stops, goes on with the new one or lands | 2
     def test_checker_killed(self):
         flight = self.fly()
         begin = flight.fly_fast()
