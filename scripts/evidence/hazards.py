@@ -37,7 +37,7 @@ def rows_of(file):
         if len(fields) != 4:
             raise SystemExit(f"{file.relative_to(ROOT)}: \"{words}\", expected GROUP | what goes wrong | what happens | seconds")
         group, hazard, happens, seconds = fields
-        yield group, (hazard, happens, seconds, f"{name_of_test(file, text[match.end():])}, {file.relative_to(ROOT / 'tests')}")
+        yield group, (hazard, happens, seconds, f"{name_of_test(file, text[match.end():])}, `{file.relative_to(ROOT)}`")
 
 
 def table():
