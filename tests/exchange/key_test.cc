@@ -137,6 +137,7 @@ TEST(RobotsKey, LinesThatSayNothingAreRefused) {
     EXPECT_NE(fault_of(file).find("expected 64 hexadecimal digits"), std::string::npos) << text;
   }
   core::write_file(file, digits + "\r\n\nR1 1\n");
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   EXPECT_EQ(fault_of(file), "");
 }
 
