@@ -8,6 +8,7 @@
 #include "flight/ground/live_source.h"
 #include "flight/ground/run_source.h"
 #include "flight/ground/server.h"
+#include "flight/ground/team_order_line.h"
 #include "flight/process/configuration.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
@@ -91,10 +92,17 @@ int show_live(const ProcessConfig& config, viewers::Site site, const std::string
            .session = session_name(),
            .begin = {},
            .end = {}});
-  OrderDesk orders(nullptr, {});
+  OrderDesk orders(nullptr, fs::path(config.ground.folder) / "orders.log");
   orders.offer_to(hub);
   LiveSource source(config.bus, name, std::make_shared<const viewers::Site>(std::move(site)), hub,
                     orders, recording ? &*recording : nullptr);
+  if (fs::exists(config.exchange.key_file)) {
+    fs::create_directories(config.ground.folder);
+    orders.send_by(std::make_unique<TeamOrderLine>(
+        source.bus(), exchange::read_key(config.exchange.key_file), name, config.ground.folder));
+  } else {
+    spdlog::info("no key of a team at {}: orders are refused", config.exchange.key_file);
+  }
   const ServerConfig how = server_config(config.ground);
   const Server server(how, hub);
   say_address(server, how);

@@ -133,7 +133,8 @@ void add_ouster(Seeds& seeds) {
 void add_ground(Seeds& seeds) {
   const auto add = [&](const std::string& message, int binary) {
     const Bytes bytes(message.begin(), message.end());
-    seeds.add("ground_message", behind(static_cast<std::uint8_t>(2 * bytes.size() + binary), bytes));
+    seeds.add("ground_message",
+              behind(static_cast<std::uint8_t>(2 * bytes.size() + binary), bytes));
   };
   add(R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":3},{"id":1,"channelId":5}]})", 0);
   add(R"({"op":"unsubscribe","subscriptionIds":[0]})", 0);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "flight/run_files/detections_file.h"
 #include "saker/core/error.h"
 #include "saker/objects/map_io.h"
-#include "flight/run_files/detections_file.h"
 #include "tools/saker/replay/trajectory_truth.h"
 
 namespace saker::tools {
@@ -78,7 +78,8 @@ std::string name_of(const fs::path& run) {
 std::vector<uncertainty::Sample> recorded_samples(const fs::path& run, const KnownTruth& truth,
                                                   const objects::ClassTable& table) {
   const std::string recording = name_of(run);
-  const std::vector<objects::Measurement> all = flight::read_detections(run / "detections.jsonl", table);
+  const std::vector<objects::Measurement> all =
+      flight::read_detections(run / "detections.jsonl", table);
   const fs::path trajectory_file = run / "trajectory.txt";
   const std::vector<StampedPose> trajectory = read_trajectory(trajectory_file);
   if (trajectory.empty()) {

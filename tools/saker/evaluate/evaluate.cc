@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "flight/run_files/detections_file.h"
 #include "saker/core/error.h"
 #include "saker/core/files.h"
 #include "saker/core/progress.h"
@@ -18,7 +19,6 @@
 #include "tools/saker/evaluate/labelled_folder.h"
 #include "tools/saker/evaluate/vehicle_figures.h"
 #include "tools/saker/evaluate/window_figures.h"
-#include "flight/run_files/detections_file.h"
 
 namespace saker::tools {
 namespace {
@@ -110,8 +110,8 @@ Json map_figures(const EvaluateOptions& options, const CommonOptions& common) {
   figures["label_sd_m"] = options.label_sd_m;
   figures["vehicles"] = Json::array();
   for (const VehicleResult& v : vehicles.vehicles) figures["vehicles"].push_back(vehicle_json(v));
-  const std::vector<WindowResult> windows =
-      window_results(flight::read_detections(run / "detections.jsonl", table), table, poses, labelled);
+  const std::vector<WindowResult> windows = window_results(
+      flight::read_detections(run / "detections.jsonl", table), table, poses, labelled);
   const Eigen::Vector2d box(table[table.first_target()].size_m.data());
   figures["windows"] = window_json(windows, box);
   std::cout << window_text(figures["windows"]);

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "flight/run_files/detections_file.h"
 #include "saker/autonomy/mission_lockstep.h"
 #include "saker/core/progress.h"
 #include "saker/simulation/vehicle/simulated_vehicle.h"
 #include "tools/saker/experiment/viewpoint_log.h"
-#include "flight/run_files/detections_file.h"
 #include "tools/saker/replay/trajectory_truth.h"
 
 namespace saker::tools {

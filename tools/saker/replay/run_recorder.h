@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "saker/autonomy/lockstep.h"
 #include "flight/run_files/detections_file.h"
+#include "saker/autonomy/lockstep.h"
 
 /// What a run over a recording leaves behind, as in docs/contract.md.
 namespace saker::tools {
