@@ -18,6 +18,7 @@ OrderVerdict verdict_of(exchange::Verdict verdict) {
     case exchange::Verdict::genuine:
       return OrderVerdict::genuine;
     case exchange::Verdict::replayed:
+    case exchange::Verdict::superseded:
       return OrderVerdict::replayed;
     default:
       return OrderVerdict::forged;
