@@ -9,6 +9,7 @@
 
 #include "flight/mavlink/dialect.h"
 #include "flight/mavlink/frame.h"
+#include "flight/mavlink/host_clock.h"
 #include "flight/mavlink/line.h"
 #include "flight/mavlink/parameter_exchange.h"
 #include "flight/mavlink/parameter_table.h"
@@ -24,16 +25,6 @@ constexpr Time kHeartbeat = kNanosecondsPerSecond;
 constexpr std::uint8_t kAutopilotComponent = 1;
 constexpr std::chrono::milliseconds kLook{5};
 constexpr const char* kSecondWord = "write";
-
-Time host_now() {
-  using namespace std::chrono;
-  return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
-SigningTime signing_now() {
-  using namespace std::chrono;
-  return signing_time(duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
-}
 
 /// The line, with whom it speaks to.
 class Talk {

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "flight/bus/messages.h"
+#include "flight/mavlink/host_clock.h"
 
 namespace saker::flight::mavlink {
 namespace {
@@ -12,16 +13,6 @@ constexpr Time kStatePeriod = kNanosecondsPerSecond / 50;
 constexpr Time kHealthPeriod = kNanosecondsPerSecond;
 constexpr Time kPause = kNanosecondsPerSecond / 20;  // of the line: a frame takes 12 ms at 230400
 constexpr int kMostReads = 64;                       // in one step
-
-Time host_now() {
-  using namespace std::chrono;
-  return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
-SigningTime signing_now() {
-  using namespace std::chrono;
-  return signing_time(duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
-}
 
 std::optional<SigningKey> key_of(const std::string& file) {
   if (file.empty()) return std::nullopt;
