@@ -67,7 +67,7 @@ simulation::MissionConfig site_of(const FaultFlight& flight) {
   for (const Fault& fault : flight.schedule) {
     add_event(fault, site.events);
     if (fault.kind != FaultKind::prior) continue;
-    site.site.prior_sd_m = std::min(20.0, fault.strength);
+    site.site.prior_sd_m = fault.strength;
     site.site.prior_errors = {.missing_share = 0.3, .invented = 3, .duplicates = 1, .mistaken = 1};
   }
   return site;
@@ -79,6 +79,9 @@ autonomy::Config config_at(const FaultFlight& flight, const simulation::MissionF
   config.mount = {flight.site.mount.position_m, flight.site.mount.rotation_deg};
   return autonomy::within_geofence(std::move(config));
 }
+
+static_assert(static_cast<int>(FaultPlace::planning) - static_cast<int>(FaultPlace::registration) ==
+              static_cast<int>(autonomy::Stage::planning));  // the same stages in the same order
 
 /// A stage that hangs gives what it had begun when it goes on.
 class StallingStages : public autonomy::StageDelays {
