@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "tools/saker/experiment/mission_run.h"
 #include "tools/saker/experiment/target_figures.h"
 #include "tools/saker/faults/faulty_checker.h"
 #include "tools/saker/faults/faulty_plant.h"
@@ -73,13 +74,6 @@ simulation::MissionConfig site_of(const FaultFlight& flight) {
   return site;
 }
 
-autonomy::Config config_at(const FaultFlight& flight, const simulation::MissionFence& fence) {
-  autonomy::Config config = flight.config;
-  config.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
-  config.mount = {flight.site.mount.position_m, flight.site.mount.rotation_deg};
-  return autonomy::within_geofence(std::move(config));
-}
-
 static_assert(static_cast<int>(FaultPlace::planning) - static_cast<int>(FaultPlace::registration) ==
               static_cast<int>(autonomy::Stage::planning));  // the same stages in the same order
 
@@ -128,7 +122,7 @@ FaultOutcome fly_with_faults(const FaultFlight& flight) {
   const auto wall_begin = std::chrono::steady_clock::now();
   simulation::SimulatedVehicle vehicle(site_of(flight), flight.seed);
   const Time begin = vehicle.now();
-  const autonomy::Config config = config_at(flight, vehicle.site().fence);
+  const autonomy::Config config = at_site(flight.config, flight.site, vehicle.site().fence);
   FlightWatch watch(flight.schedule, config.motion.geofence, config.motion.limits, begin);
   FaultyPlant plant(vehicle, flight.schedule,
                     {[&](const auto& truth, const auto& state) { watch.on_step(truth, state); },
