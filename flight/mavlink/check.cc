@@ -125,7 +125,8 @@ ParameterTable table_of(const MavlinkConfig& config, const CheckOptions& options
   const std::string file = options.table.empty()
                                ? fmt::format("autopilots/{}.yaml", to_string(autopilot))
                                : options.table;
-  ParameterTable table = read_parameter_table(core::find_in_configs(file, "--table"));
+  ParameterTable table =
+      read_parameter_table(core::find_in_configs(file, "--table"), config.bridge.system);
   if (table.autopilot == autopilot) return table;
   throw Error(fmt::format("{}: autopilot {}, expected {} as mavlink.autopilot says", file,
                           to_string(table.autopilot), to_string(autopilot)));

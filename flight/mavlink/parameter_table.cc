@@ -30,7 +30,8 @@ void check(const ParameterTable& table, const std::string& where) {
     }
     if (!names.insert(name).second) throw Error(fmt::format("{}: {} named twice", where, name));
     if (parameter.values.empty() && !parameter.bounded() && !parameter.latency) {
-      throw Error(fmt::format("{}: {}: expected values, least or most, or latency", where, name));
+      throw Error(fmt::format("{}: {}: expected values, least or most, latency or our_system",
+                              where, name));
     }
   }
   if (names.empty()) throw Error(fmt::format("{}: no parameters", where));
@@ -63,9 +64,11 @@ std::string ExpectedParameter::expected_text(double latency_ms) const {
   return fmt::format("{:g} … {:g}", least, most);
 }
 
-ParameterTable read_parameter_table(const std::filesystem::path& file) {
+ParameterTable read_parameter_table(const std::filesystem::path& file, int our_system) {
   auto table = core::config_from_yaml<ParameterTable>(core::read_file(file), file.string(),
                                                       ParameterTable{});
+  for (ExpectedParameter& parameter : table.parameters)
+    if (parameter.our_system) parameter.values = {static_cast<double>(our_system)};
   check(table, file.string());
   return table;
 }

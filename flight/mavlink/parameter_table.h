@@ -17,6 +17,7 @@ struct ExpectedParameter {
   std::vector<double> values;  ///< the first is written; empty: a person has to choose
   double least = -1e9, most = 1e9;
   bool latency = false;
+  bool our_system = false;
   bool optional = false;
   std::string why;
 
@@ -28,6 +29,7 @@ struct ExpectedParameter {
     v.field("least", least, {-1e9, 1e9}, "", "the least that is right");
     v.field("most", most, {-1e9, 1e9}, "", "the most that is right");
     v.field("latency", latency, "", "it has to be the measured latency of odometry, ms");
+    v.field("our_system", our_system, "", "it has to be mavlink.system");
     v.field("optional", optional, "", "where the autopilot has no such parameter nothing is wrong");
     v.field("why", why, "", "what happens otherwise");
   }
@@ -56,8 +58,9 @@ struct ParameterTable {
   }
 };
 
-/// Throws Error that names file and key: an unknown key, a name twice or too long, neither values
-/// nor bounds nor latency.
-[[nodiscard]] ParameterTable read_parameter_table(const std::filesystem::path& file);
+/// Throws Error that names file and key: an unknown key, a name twice or too long, nothing that is
+/// expected. \param our_system  the value of those that have to be it
+[[nodiscard]] ParameterTable read_parameter_table(const std::filesystem::path& file,
+                                                  int our_system);
 
 }  // namespace saker::flight::mavlink

@@ -46,6 +46,8 @@ TEST(Planning, ProposesNothingWhileWhatIsCommittedLeadsThere) {
 }
 
 /// The take-off place in a closed room: no target can be reached, home can.
+// Hazard: Surroundings | nothing can be reached | returns, or lands where it is
+//   (`nothing_reachable`, `home_unreachable`) | –
 TEST(Planning, EndsWhereNothingIsReachable) {
   occupancy::OccupancyGrid grid = free_block(12);
   fill(grid, {-4, -4, -1}, {4, 4, 8}, Cell::occupied);

@@ -61,6 +61,9 @@ struct Silence {
   double limit_s;
 };
 
+// Hazard: Stages and links | no scan, registered scan, verdict or state for 0.5 s, no occupancy for
+//   2 s, no plan for 4 s, no map for 5 s | stops and holds; goes on 3 s after it came back,
+//   lands after 10 s | –
 TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
   const Silence silences[] = {{&Heard::vehicle, Cause::vehicle_silent, config.vehicle_s},
                               {&Heard::lidar, Cause::lidar_silent, config.lidar_s},
@@ -88,6 +91,8 @@ TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
   }
 }
 
+// Hazard: Odometry | no registered scan for 1 s | no setpoints: the flight controller descends and
+//   lands, even when scans register again (`odometry_lost`) | –
 TEST_F(SafetyTest, SilencesTheSetpointsWhenOdometryIsLost) {
   const Time last = now;
   const auto frozen = [last](SafetyInput& input) { input.heard.odometry = last; };
@@ -122,6 +127,7 @@ TEST_F(SafetyTest, TheMoreSevereWins) {
   EXPECT_EQ(pass(1, both).cause, Cause::battery_empty);
 }
 
+// Hazard: Vehicle | battery below 30 %, 15 % | returns, lands (`battery_low`, `battery_empty`) | –
 TEST_F(SafetyTest, ReturnsWithALowBattery) {
   const auto low = [](SafetyInput& input) { input.vehicle.battery_share = 0.25; };
   EXPECT_EQ(pass(1, low).action, SafetyAction::return_home);
@@ -134,6 +140,8 @@ TEST_F(SafetyTest, LandsAfterACollision) {
   EXPECT_EQ(pass(1, hit).action, SafetyAction::land);
 }
 
+// Hazard: Odometry | what the flight controller gets contradicts its inertial unit and barometer |
+//   it descends; it is not believed again the next moment (`vehicle_descends`) | –
 TEST_F(SafetyTest, LandsWhenTheFlightControllerComesDownByItself) {
   const auto descends = [](SafetyInput& input) {
     input.vehicle.mode = VehicleMode::descend;
@@ -144,12 +152,14 @@ TEST_F(SafetyTest, LandsWhenTheFlightControllerComesDownByItself) {
   EXPECT_EQ(decision.text, "the flight controller rejects the odometry");
 }
 
+// Hazard: Vehicle | outside the geofence | holds, lands (`outside_geofence`) | –
 TEST_F(SafetyTest, HoldsOutsideTheGeofence) {
   const auto out = [](SafetyInput& input) { input.place = {0, 101, 3}; };
   EXPECT_EQ(pass(1, out).cause, Cause::outside_geofence);
   EXPECT_EQ(pass(1, out).action, SafetyAction::hold);
 }
 
+// Hazard: Vehicle | it does not follow its setpoints | holds, lands (`off_course`) | –
 TEST_F(SafetyTest, HoldsWhenTheVehicleDoesNotFollow) {
   const auto off = [](SafetyInput& input) { input.setpoint->position.x() += 2; };
   EXPECT_EQ(pass(1, off).cause, Cause::off_course);

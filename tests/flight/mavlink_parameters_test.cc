@@ -161,7 +161,7 @@ class Tables : public testing::Test {
   }
   void expect_refused(const std::string& text, const std::string& words) {
     try {
-      (void)read_parameter_table(written(text));
+      (void)read_parameter_table(written(text), 255);
       FAIL() << text;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
@@ -172,7 +172,8 @@ class Tables : public testing::Test {
 
 TEST_F(Tables, WhatIsWrongInOneIsNamed) {
   expect_refused("parameters: [{name: A, values: [1]}, {name: A, values: [2]}]", "A named twice");
-  expect_refused("parameters: [{name: A}]", "expected values, least or most, or latency");
+  expect_refused("parameters: [{name: A}]",
+                 "expected values, least or most, latency or our_system");
   expect_refused("parameters: [{name: ABCDEFGHIJKLMNOPQ, values: [1]}]", "1 to 16 characters");
   expect_refused("parameters: [{name: A, value: 1}]", "value");
   expect_refused("autopilot: px4", "no parameters");
@@ -182,7 +183,7 @@ TEST_F(Tables, ThoseThatAreShippedFitTheSimulatedAutopilots) {
   for (const Autopilot autopilot : {Autopilot::ardupilot, Autopilot::px4}) {
     const auto file = std::filesystem::path(source_dir()) / "configs/autopilots" /
                       (std::string(to_string(autopilot)) + ".yaml");
-    const ParameterTable table = read_parameter_table(file);
+    const ParameterTable table = read_parameter_table(file, 255);
     EXPECT_EQ(table.autopilot, autopilot);
     std::vector<Parameter> names;
     for (const ExpectedParameter& expected : table.parameters)
@@ -208,11 +209,19 @@ TEST_F(Tables, ThoseThatAreShippedFitTheSimulatedAutopilots) {
   }
 }
 
+TEST_F(Tables, TheFailsafesSystemIsOurs) {
+  const auto table =
+      read_parameter_table(written("parameters: [{name: SYSID_MYGCS, our_system: true}]"), 250);
+  EXPECT_TRUE(table.parameters[0].fits(250, NAN));
+  EXPECT_FALSE(table.parameters[0].fits(255, NAN));
+  EXPECT_EQ(table.parameters[0].wanted(NAN), 250);
+}
+
 TEST_F(Tables, AllThatAreShippedCanBeRead) {
   int read = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(source_dir()) /
                                                                "configs/autopilots")) {
-    EXPECT_FALSE(read_parameter_table(entry.path()).parameters.empty()) << entry.path();
+    EXPECT_FALSE(read_parameter_table(entry.path(), 255).parameters.empty()) << entry.path();
     ++read;
   }
   EXPECT_GE(read, 4);

@@ -61,6 +61,8 @@ bool clear_while_it_leaves(const Trajectory& trajectory, const OccupancyGrid& gr
   return true;
 }
 
+// Hazard: Surroundings | an obstacle is nearer than the radius | leaves without coming nearer to
+//   any; lands where there is no such way | –
 TEST(Departure, LeavesWhatIsNearerThanTheRadiusAndComesNearerToNothing) {
   int blocked = 0, left = 0, clear = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {

@@ -40,15 +40,6 @@ simulation::SimulatedVehicle vehicle_of(const MissionRun& run) {
   return {run.site, run.seed, run.team->takeoff, run.team->own_seed};
 }
 
-/// What the vehicle is told of the site: the fence, heights that fit under it, and how its lidar is
-/// mounted.
-autonomy::Config at_site(autonomy::Config config, const MissionRun& run, const Task& task,
-                         const simulation::MissionFence& fence) {
-  config.motion.geofence = {fence.lowest_m, fence.highest_m, task.fence_m};
-  config.mount = {run.site.mount.position_m, run.site.mount.rotation_deg};
-  return autonomy::within_geofence(std::move(config));
-}
-
 /// Every phase with its deadline, twice: then something is wrong with the deadlines themselves.
 double longest_s(const autonomy::MissionConfig& config) {
   return 2 * (config.preflight_s + config.takeoff_s + config.tour_s + config.return_s +
@@ -179,11 +170,20 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
+autonomy::Config at_site(autonomy::Config config, const simulation::MissionConfig& site,
+                         const simulation::MissionFence& fence) {
+  config.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
+  config.mount = {site.mount.position_m, site.mount.rotation_deg};
+  return autonomy::within_geofence(std::move(config));
+}
+
 Json fly(const MissionRun& run, const fs::path& out) {
   const auto begin = std::chrono::steady_clock::now();
   simulation::SimulatedVehicle vehicle = vehicle_of(run);
   const Task task = task_of(run, vehicle.site());
-  const autonomy::Config config = at_site(run.config, run, task, vehicle.site().fence);
+  simulation::MissionFence fence = vehicle.site().fence;
+  fence.polygon_m = task.fence_m;
+  const autonomy::Config config = at_site(run.config, run.site, fence);
   const std::string note = autonomy::noise_note(config, lidar::name_and_mode(vehicle.sensor()));
   if (!note.empty()) run.log->info("{}", note);
   SimulatedPlant plant(vehicle);

@@ -39,6 +39,12 @@ struct MissionRun {
   bool shows_progress = true;
 };
 
+/// What a vehicle is told of its site: the fence (`world`), heights that fit under it, and how its
+/// lidar is mounted.
+[[nodiscard]] autonomy::Config at_site(autonomy::Config config,
+                                       const simulation::MissionConfig& site,
+                                       const simulation::MissionFence& fence);
+
 /// Flies it and leaves in `out` what docs/contract.md lists, results.json last.
 /// \return what results.json holds. Throws Error on a configuration or a site that cannot be.
 Json fly(const MissionRun& run, const std::filesystem::path& out);

@@ -51,7 +51,7 @@ std::vector<FaultKindInfo> kinds() {
       {restart, "restart", "", 0, 0, false, 0.2, 3, false, {P::checker}},
       {battery_drop, "battery_drop", "share", 0.1, 0.9, false, 600, 600, true},
       {battery_unknown, "battery_unknown", "", 0, 0, false, 0.1, 30, true},
-      {prior, "prior", "m", 1, 30, false, 600, 600, true},
+      {prior, "prior", "m", 1, 20, false, 600, 600, true},
   };
 }
 

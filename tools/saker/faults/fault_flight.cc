@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "tools/saker/experiment/mission_run.h"
 #include "tools/saker/experiment/target_figures.h"
 #include "tools/saker/faults/faulty_checker.h"
 #include "tools/saker/faults/faulty_plant.h"
@@ -67,18 +68,14 @@ simulation::MissionConfig site_of(const FaultFlight& flight) {
   for (const Fault& fault : flight.schedule) {
     add_event(fault, site.events);
     if (fault.kind != FaultKind::prior) continue;
-    site.site.prior_sd_m = std::min(20.0, fault.strength);
+    site.site.prior_sd_m = fault.strength;
     site.site.prior_errors = {.missing_share = 0.3, .invented = 3, .duplicates = 1, .mistaken = 1};
   }
   return site;
 }
 
-autonomy::Config config_at(const FaultFlight& flight, const simulation::MissionFence& fence) {
-  autonomy::Config config = flight.config;
-  config.motion.geofence = {fence.lowest_m, fence.highest_m, fence.polygon_m};
-  config.mount = {flight.site.mount.position_m, flight.site.mount.rotation_deg};
-  return autonomy::within_geofence(std::move(config));
-}
+static_assert(static_cast<int>(FaultPlace::planning) - static_cast<int>(FaultPlace::registration) ==
+              static_cast<int>(autonomy::Stage::planning));  // the same stages in the same order
 
 /// A stage that hangs gives what it had begun when it goes on.
 class StallingStages : public autonomy::StageDelays {
@@ -125,7 +122,7 @@ FaultOutcome fly_with_faults(const FaultFlight& flight) {
   const auto wall_begin = std::chrono::steady_clock::now();
   simulation::SimulatedVehicle vehicle(site_of(flight), flight.seed);
   const Time begin = vehicle.now();
-  const autonomy::Config config = config_at(flight, vehicle.site().fence);
+  const autonomy::Config config = at_site(flight.config, flight.site, vehicle.site().fence);
   FlightWatch watch(flight.schedule, config.motion.geofence, config.motion.limits, begin);
   FaultyPlant plant(vehicle, flight.schedule,
                     {[&](const auto& truth, const auto& state) { watch.on_step(truth, state); },
