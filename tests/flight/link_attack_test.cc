@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "made_link.h"
 
 namespace saker::flight {
@@ -150,7 +152,7 @@ TEST_F(AnAttacker, TwoRobotsOfOneNameDoNotTakeTurns) {
 
 TEST_F(AnAttacker, MoreRobotsThanTheCeilingAreRefused) {
   for (int i = 0; i < 6; ++i) {
-    const std::string name = "X" + std::to_string(i);
+    const std::string name = fmt::format("X{}", i);
     exchange::Sealer sealer(team, name, "");
     ground->receive(now, elsewhere, sealer.seal(name + "_LINK", std::string(16, 'x')).value());
   }

@@ -38,6 +38,9 @@ WHO = {
     "base": "ground",
     "base.most_store_mb": "buyer",
     "mavlink": "mounter",
+    "link": "ground",
+    "ground": "ground",
+    "site.origin": "pilot",
 }
 
 
