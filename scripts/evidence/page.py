@@ -46,15 +46,14 @@ def scenario_rows(entry):
 
 
 def missions(entry):
-    lines = prose("""Missions in lockstep, world and vehicle simulated. All policies fly the same worlds with the same estimator, so that the table
-        tells where they look from. `sides` and `paper` are the best that others would do. `sides` is `visit` from two opposite corners of
-        each vehicle that the prior map has, set so that it gets as much time as `saker` or more. `paper` chooses among all views that its model has seen flown,
-        instead of the best quarter and of that its centroids. They differ by:""")
+    lines = prose("""Simulated missions in lockstep. All policies fly the same worlds with the same estimator: they differ in where they look from.
+        `sides` and `paper` are the best that others would do. `sides` visits two opposite corners of each vehicle of the prior map, with as
+        much time as `saker` or more. `paper` chooses among all views that its model has seen flown, not the centroids of the best
+        quarter.""")
     lines += ["", *table(["name", "settings"], [[f"`{name}`", f"`{said}`"] for name, said in entry["variants"].items()]), ""]
-    lines += prose("""Errors of length and width are mapped − true, over all found targets; MAE: of both together. Found: of the targets that can
-        be reached, which follows from world and geofence. NEES a degree of freedom (1: covariances are honest). Home: missions that ended their
-        tour and landed where they began. Invented: of the mapped vehicles, trunks and poles. Predicted: the error after a viewpoint over what was
-        predicted of it before (1: as was said).""")
+    lines += prose("""Errors of length and width are mapped − true, of found targets; MAE: of both together. Found: of the targets that world and
+        geofence let reach. NEES: 1 where covariances are honest. Home: missions that ended their tour and landed where they began.
+        Predicted: the error after a viewpoint over what was predicted before it.""")
     heads = ["policy", "found", "MAE m", "length: bias, sd m", "width: bias, sd m", "NEES of size", "home", "collisions", "least clearance m",
              "time s", "path m", "invented: vehicles, trunks, poles", "predicted"]
     lines += ["", *table(heads, mission_rows(entry))]
@@ -68,21 +67,20 @@ def missions(entry):
 
 
 def real(entry):
-    lines = prose("""From [real.md](real.md) (`scripts/real`), which has all of it with commands and machine. One constant box: the median length
-        and width of all vehicles that are labelled in the drive, put in the place of each listed one: what knowing the drive's vehicles
-        beforehand, and measuring none, would err by.""")
+    lines = prose("""From [real.md](real.md) (`scripts/real`). One constant box: the error, had each listed vehicle been given the median length and
+        width of all that are labelled in the drive.""")
     rows = [[f"`{name}`", of(row, "found", "listed"), m(row["size_mae_m"]), m(row["box_size_mae_m"]), m(row["length_bias_m"]),
              m(row["size_nees"], 2), m(row["window_mae_m"]), m(row["window_hull_mae_m"]), m(row["window_box_mae_m"]),
              m(row["sharpness_cm"], 2), row["commit"]] for name, row in entry["drives"].items()]
     heads = ["drive", "found", "MAE of length and width m", "one constant box m", "bias of length m", "NEES of size", "single windows m",
              "the same, paper's hull", "the same, a box of 4.5 m by 1.9 m", "odometry: sharpness cm", "commit"]
-    lines += ["", *table(heads, rows), "", "Vehicle IoU, by weights that saw no real scan:", ""]
+    lines += ["", *table(heads, rows), "", "Vehicle IoU:", ""]
     return lines + table([f"`{name}`" for name in entry["vehicle_iou"]], [[m(value, 2) for value in entry["vehicle_iou"].values()]])
 
 
 def flights(entry):
-    lines = prose(f"""{entry['flights']} simulated flights past parked vehicles, trees and poles (OS1-64, 40 s each), mapped from their captures; maps
-        and truths laid side by side. A true object counts where 100 returns hit it. One box: all vehicles had been given their mean size.""")
+    lines = prose(f"""{entry['flights']} simulated flights past parked vehicles, trees and poles (OS1-64, 40 s each), mapped from their captures. A true
+        object counts where 100 returns hit it. One box: the error, had all vehicles been given their mean size.""")
     rows = []
     for name, row in entry["classes"].items():
         sizes = [m(row.get("size_mae_m")), m(row.get("constant_size_mae_m")), m(row.get("length_slope"), 2)]
@@ -111,7 +109,7 @@ def real_time(entry):
         rows.append([f"{loop}: late by more than 5 ms; worst, ms",
                      *(f"{percent(row[loop + '_late'])}; {m(row[loop + '_worst_ms'], 1)}" for row in both)])
     lines = prose(f"""Simulator, collision checker and executive, three processes over LCM and UDP, {entry['median']['targets']:.0f} targets. Of
-        {entry['flights']} flights the median and the worst of each figure; what else runs on the machine counts.""")
+        {entry['flights']} flights the median and the worst of each figure.""")
     return lines + ["", *table(["figure", "median", "worst"], rows), *flown(entry),
                     "![The mission's map: objects, trajectory, viewpoints and truth from above](pictures/mission.png)"]
 
@@ -135,8 +133,7 @@ PARTS = {"missions": ("Missions: where to look from", missions), "real": ("Real 
 
 def page(document):
     lines = ["# Results", ""]
-    lines += prose("""`scripts/results` flies, measures and writes this page from [results.json](results.json): it is not edited. Each table has
-        its command, seeds, commit and machine.""")
+    lines += prose("""`scripts/results` flies, measures and writes this page and [results.json](results.json).""")
     for part, (title, lines_of) in PARTS.items():
         body = lines_of(document[part]) if part in document else [f"Not measured yet: `scripts/results {part}`."]
         lines += ["", f"## {title}", "", *body]
