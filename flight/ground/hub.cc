@@ -144,11 +144,26 @@ void Hub::close(SessionId session) {
   for (const auto& [channel, id] : at->second.subscriptions()) --channels_.at(channel).wanted;
   counters_.dropped += at->second.dropped();
   ++counters_.closed;
+  stuck_.erase(session);
   sessions_.erase(at);
+}
+
+bool Hub::has_room(SessionId id) {
+  const std::lock_guard lock(mutex_);
+  const auto at = sessions_.find(id);
+  if (at == sessions_.end()) return false;
+  if (at->second.is_full()) count_stuck(id);
+  return !at->second.is_full();
+}
+
+/// Once, however long it takes until it is closed.
+void Hub::count_stuck(SessionId id) {
+  if (stuck_.insert(id).second) ++counters_.stuck;
 }
 
 bool Hub::hear(SessionId id, std::span<const std::uint8_t> bytes, bool binary,
                Steady::time_point now) {
+  if (!has_room(id)) return false;
   const ClientMessage message = parse_client_message(bytes, binary);
   if (const auto* service_call = std::get_if<ServiceCall>(&message)) {
     call(id, *service_call);
@@ -275,11 +290,11 @@ std::vector<Hub::SessionId> Hub::stuck(Steady::time_point now) {
   for (auto& [id, session] : sessions_) {
     if (session.is_stuck(now)) {
       result.push_back(id);
+      count_stuck(id);
     } else {
       session.tell_drops(now);
     }
   }
-  counters_.stuck += static_cast<long>(result.size());
   return result;
 }
 

@@ -82,7 +82,7 @@ void Session::tell_drops(Steady::time_point now) {
 }
 
 bool Session::is_stuck(Steady::time_point now) const {
-  if (answer_bytes_ > limits_.most_answer_bytes) return true;
+  if (is_full()) return true;
   return has_output() && now - waits_since_ > limits_.most_wait;
 }
 

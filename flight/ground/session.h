@@ -56,6 +56,8 @@ class Session {
 
   /// Whether it is to be cut: nothing was taken for long, or answers pile up.
   [[nodiscard]] bool is_stuck(Steady::time_point now) const;
+  /// Whether more answers wait than may.
+  [[nodiscard]] bool is_full() const { return answer_bytes_ > limits_.most_answer_bytes; }
 
   [[nodiscard]] const std::string& from() const { return from_; }
   [[nodiscard]] bool sdk() const { return sdk_; }
