@@ -5,6 +5,7 @@
 
 export const KEPT = 240;           // samples of a plot
 const BACK_S = 0.5;                // a message so much older than the last one: somebody went back in a run
+const WHOLE_RUN = new Set(["site", "tf", "figures"]);
 const LEAST_CHANGE_M = 0.0005;     // of a size, that its history notes
 
 /// A ring of the newest samples, oldest first.
@@ -19,6 +20,10 @@ export class Series {
     if (last && t_s < last[0] - BACK_S) this.samples = this.samples.filter(([t]) => t < t_s);
     this.samples.push([t_s, ...values]);
     if (this.samples.length > this.most) this.samples.shift();
+  }
+
+  cut(t_s) {
+    this.samples = this.samples.filter(([t]) => t <= t_s);
   }
 
   /// Samples that came in another way, older than ours, put before them.
@@ -108,6 +113,16 @@ export class Robot {
     this.orders.set(order.id, order);
   }
 
+  /// What came after `t_s`, when somebody goes back in a run; the server says again what was known then. What holds for the whole run stays.
+  forgetAfter(t_s) {
+    const gone = Object.keys(this.newest).filter(kind => !WHOLE_RUN.has(kind));
+    for (const kind of gone) delete this.newest[kind];
+    for (const map of [this.objects, this.targets, this.processes, this.orders]) map.clear();
+    for (const series of [this.battery, this.height, this.link, ...this.sizes.values(), ...this.loops.values()]) series.cut(t_s);
+    this.log = [];  // all of it is said again
+    return gone;
+  }
+
   /// Sizes of one object over time, from whole maps of the past: [{t_s, message}].
   seedSizes(id, messages) {
     const samples = messages.flatMap(({t_s, message}) => {
@@ -124,6 +139,7 @@ export class Store {
     this.robots = new Map();
     this.changed = new Set();  // topics
     this.playback = null;      // of a finished run
+    this.played_s = -Infinity; // its time when it was said last
     this.time_s = null;        // of the newest message
   }
 
@@ -146,8 +162,17 @@ export class Store {
   take(topic, message, time_s) {
     this.changed.add(topic);
     this.time_s = time_s;
-    if (topic === "/playback") this.playback = message;
+    if (topic === "/playback") this.#play(message);
     else this.know(topic)?.take(topic.split("/")[2], message, time_s, this.now());
+  }
+
+  // The answer of `seek` comes before this message: what is compared is what came this way.
+  #play(playback) {
+    if (playback.t_s < this.played_s) {
+      for (const robot of this.robots.values()) for (const kind of robot.forgetAfter(playback.t_s)) this.changed.add(`/${robot.name}/${kind}`);
+    }
+    this.playback = playback;
+    this.played_s = playback.t_s;
   }
 
   /// Seconds since a robot's newest message of that kind; null: none yet.
