@@ -78,10 +78,7 @@ void Hub::tell_time(Time time) {
   {
     const std::lock_guard lock(mutex_);
     time_ = time;
-    for (auto& [id, session] : sessions_) {
-      // A client that is behind needs no more of these.
-      if (!session.has_output()) session.answer(time_message(time), true, Steady::now());
-    }
+    for (auto& [id, session] : sessions_) session.tell_time(time, Steady::now());
   }
   wake();
 }
@@ -134,7 +131,7 @@ void Hub::greet(Session& session, Steady::time_point now) {
   std::vector<Service> services;
   for (const ServiceState& state : services_) services.push_back(state.service);
   session.answer(advertise_services(services), false, now);
-  if (time_) session.answer(time_message(*time_), true, now);
+  if (time_) session.tell_time(*time_, now);
 }
 
 void Hub::close(SessionId session) {
