@@ -78,8 +78,9 @@ TEST_F(RobotViewsTest, OfWhateverBytesNothingIsThrown) {
       changed[8 + (random >> 8) % (changed.size() - 8)] = static_cast<std::uint8_t>(random >> 24);
     }
     EXPECT_NO_THROW(views.hear("R1_PLAN", changed, round));
-    if (RobotView* view = views.find("R1"); view != nullptr)
+    if (RobotView* view = views.find("R1"); view != nullptr) {
       EXPECT_NO_THROW(static_cast<void>(view->take_due(round, all)));
+    }
   }
 }
 

@@ -153,7 +153,8 @@ TEST(Transforms, AreAChainFromTheMapToTheLidar) {
 
 TEST(FoxgloveParts, ATimeThatIsNoneIsZero) {
   const Json zero = {{"sec", 0}, {"nsec", 0}};
-  for (const double t : {0.0, -1.0, NAN, INFINITY, 1e300}) EXPECT_EQ(time_json(t), zero) << t;
+  for (const double t : {0.0, -1.0, double{NAN}, double{INFINITY}, 1e300})
+    EXPECT_EQ(time_json(t), zero) << t;
   EXPECT_EQ(time_json(4294967294.5), Json({{"sec", 4294967294}, {"nsec", 500000000}}));
 }
 
