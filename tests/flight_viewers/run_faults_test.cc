@@ -117,6 +117,16 @@ TEST_F(RunFolder, ResultsThatAreNoneAreNamed) {
   }
 }
 
+/// 200,000 brackets would take the whole stack when they are copied.
+TEST_F(RunFolder, ResultsThatAreNestedWithoutEndAreNamed) {
+  const std::string open(200000, '['), close(200000, ']');
+  core::write_file(out / "results.json", R"({"a": )" + open + close + "}");
+  EXPECT_NE(fault(out).find("results.json"), std::string::npos);
+  core::write_file(out / "results.json",
+                   R"({"a": )" + open.substr(0, 60) + close.substr(0, 60) + "}");
+  EXPECT_EQ(fault(out), "");
+}
+
 TEST_F(RunFolder, ResultsOfNothingAreResults) {
   core::write_file(out / "results.json", "{}");
   EXPECT_EQ(fault(out), "");
