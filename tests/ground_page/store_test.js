@@ -84,6 +84,15 @@ test("going back in a run forgets what was not yet", () => {
   assert.deepEqual([...store.takeChanges()].sort(), ["/R1/mission", "/R1/objects", "/R1/state", "/R1/verdict", "/playback"]);
 });
 
+test("going back keeps what was said of then, whichever came first", () => {
+  const store = new Store();
+  store.take("/playback", {t_s: 110}, 110);
+  store.take("/R1/verdict", {clear: true}, 100);
+  store.take("/R1/odometry", {status: "ok"}, 101);
+  store.take("/playback", {t_s: 101}, 101);
+  assert.deepEqual(Object.keys(store.robots.get("R1").newest).sort(), ["odometry", "verdict"]);
+});
+
 test("going on in a run forgets nothing", () => {
   const store = new Store();
   store.take("/playback", {t_s: 101}, 101);

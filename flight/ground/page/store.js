@@ -5,6 +5,7 @@
 
 export const KEPT = 240;           // samples of a plot
 const BACK_S = 0.5;                // a message so much older than the last one: somebody went back in a run
+const SAME_S = 1e-3;               // of two clocks' last digits
 const WHOLE_RUN = new Set(["site", "tf", "figures"]);
 const LEAST_CHANGE_M = 0.0005;     // of a size, that its history notes
 
@@ -48,6 +49,7 @@ export class Robot {
     this.name = name;
     this.newest = {};           // message by the topic's last word
     this.heard_ms = {};         // when it came, by our clock
+    this.said_s = {};           // its own time
     this.objects = new Map();   // by id
     this.targets = new Map();   // objects by the id of the target that the tour means
     this.sizes = new Map();     // Series by id
@@ -63,6 +65,7 @@ export class Robot {
   take(kind, message, t_s, now_ms) {
     this.newest[kind] = message;
     this.heard_ms[kind] = now_ms;
+    this.said_s[kind] = t_s;
     const taker = `take_${kind}`;
     if (taker in this) this[taker](message, t_s);
   }
@@ -105,6 +108,7 @@ export class Robot {
 
   take_log(entry, t_s) {
     if (this.log.length && t_s < this.log.at(-1).t_s - BACK_S) this.log = this.log.filter(other => other.t_s < t_s);
+    if (this.log.some(other => other.t_s === t_s && other.message === entry.message)) return;  // said again after a jump
     this.log.push({...entry, t_s});
     if (this.log.length > 200) this.log.shift();
   }
@@ -113,13 +117,14 @@ export class Robot {
     this.orders.set(order.id, order);
   }
 
-  /// What came after `t_s`, when somebody goes back in a run; the server says again what was known then. What holds for the whole run stays.
+  /// What came after `t_s`, when somebody goes back in a run: the kinds that are not known any more. What holds for the whole run stays.
   forgetAfter(t_s) {
-    const gone = Object.keys(this.newest).filter(kind => !WHOLE_RUN.has(kind));
+    const gone = Object.keys(this.newest).filter(kind => !WHOLE_RUN.has(kind) && this.said_s[kind] > t_s + SAME_S);
     for (const kind of gone) delete this.newest[kind];
-    for (const map of [this.objects, this.targets, this.processes, this.orders]) map.clear();
-    for (const series of [this.battery, this.height, this.link, ...this.sizes.values(), ...this.loops.values()]) series.cut(t_s);
-    this.log = [];  // all of it is said again
+    if (gone.includes("objects")) for (const map of [this.objects, this.targets]) map.clear();
+    if (gone.includes("health")) this.processes.clear();
+    for (const series of [this.battery, this.height, this.link, ...this.sizes.values(), ...this.loops.values()]) series.cut(t_s + SAME_S);
+    this.log = this.log.filter(entry => entry.t_s <= t_s + SAME_S);
     return gone;
   }
 
