@@ -349,7 +349,10 @@ TEST_F(HubTest, TheServerIsWokenWhereThereIsSomethingToSend) {
 TEST_F(HubTest, ClientsComeAndGoWhileTheSourcePublishes) {
   std::atomic<bool> over = false;
   std::thread source([&] {
-    for (int i = 0; !over; ++i) hub.publish(newest, i, std::to_string(i));
+    for (int i = 0; !over; ++i) {
+      hub.publish(newest, i, std::to_string(i));
+      std::this_thread::sleep_for(std::chrono::microseconds(10));
+    }
   });
   for (int i = 0; i < 200; ++i) {
     Client client(hub);
