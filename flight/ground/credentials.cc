@@ -1,8 +1,10 @@
+#include <openssl/bio.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509v3.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -30,14 +32,38 @@ struct Closed {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, Closed>;
+using Memory = std::unique_ptr<BIO, Freed<BIO, BIO_free_all>>;
 
-/// Empty, and its owner's alone before anything is in it.
-File open_secret(const fs::path& path) {
-  core::write_file(path, "");
-  fs::permissions(path, kOwner);
-  File file(std::fopen(path.c_str(), "w"));
-  if (!file) throw Error("cannot write " + path.string());
-  return file;
+/// Its owner's alone before anything is in it; whole under its name, or not there.
+void write_secret(const fs::path& path, const std::string& content) {
+  const fs::path fresh = path.string() + ".new";
+  core::write_file(fresh, "");
+  fs::permissions(fresh, kOwner);
+  File file(std::fopen(fresh.c_str(), "w"));
+  bool fine = file && std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
+  fine = file && std::fclose(file.release()) == 0 && fine;
+  std::error_code failed;
+  if (fine) fs::rename(fresh, path, failed);
+  if (!fine || failed) throw Error("cannot write " + path.string());
+}
+
+/// What an earlier start began to write is not there.
+bool is_there(const fs::path& path) {
+  std::error_code failed;
+  const auto size = fs::file_size(path, failed);
+  return !failed && size > 0;
+}
+
+/// \param write  into memory, as OpenSSL's PEM_write_bio_… do
+template <class Write>
+std::string pem(Write write) {
+  const Memory memory(BIO_new(BIO_s_mem()));
+  if (!memory || write(memory.get()) != 1) throw Error("OpenSSL cannot write PEM");
+  std::string text(BIO_ctrl_pending(memory.get()), '\0');
+  if (BIO_read(memory.get(), text.data(), static_cast<int>(text.size())) !=
+      static_cast<int>(text.size()))
+    throw Error("OpenSSL cannot write PEM");
+  return text;
 }
 
 std::string drawn_key() {
@@ -93,11 +119,14 @@ void draw_certificate(const Credentials& into, const std::string& address) {
   const PrivateKey key(EVP_EC_gen("P-256"));
   if (!key) throw Error("OpenSSL cannot draw a key");
   const Certificate certificate = self_signed(key.get(), address);
-  const File key_file = open_secret(into.private_key), file = open_secret(into.certificate);
-  const bool written =
-      PEM_write_PrivateKey(key_file.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1 &&
-      PEM_write_X509(file.get(), certificate.get()) == 1;
-  if (!written) throw Error("cannot write " + into.certificate.string());
+  std::error_code none;
+  fs::remove(into.certificate, none);  // it is of another key until the new one is there
+  write_secret(into.private_key, pem([&](BIO* out) {
+                 return PEM_write_bio_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr,
+                                                 nullptr);
+               }));
+  write_secret(into.certificate,
+               pem([&](BIO* out) { return PEM_write_bio_X509(out, certificate.get()); }));
 }
 
 std::string fingerprint_of(const fs::path& path) {
@@ -117,6 +146,23 @@ std::string fingerprint_of(const fs::path& path) {
   return text;
 }
 
+/// A line of an address: nothing that would have to be written otherwise there.
+std::string read_key(const fs::path& file) {
+  constexpr std::size_t kLeast = 16, kMost = 200;
+  std::string key = core::read_file(file);
+  while (!key.empty() && (key.back() == '\n' || key.back() == '\r')) key.pop_back();
+  if (key.size() < kLeast || key.size() > kMost)
+    throw Error(file.string() + ": " + std::to_string(key.size()) +
+                " characters, expected 16 to 200");
+  const auto plain = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
+           c == '_';
+  };
+  if (!std::ranges::all_of(key, plain))
+    throw Error(file.string() + ": expected letters, digits, '-' and '_' alone");
+  return key;
+}
+
 }  // namespace
 
 Credentials credentials(const fs::path& folder, const std::string& address) {
@@ -127,16 +173,9 @@ Credentials credentials(const fs::path& folder, const std::string& address) {
                      .private_key = folder / ("private-key-" + address + ".pem"),
                      .fingerprint = {}};
   const fs::path key_file = folder / "address.key";
-  if (!fs::exists(key_file)) {
-    const File file = open_secret(key_file);
-    std::fputs((drawn_key() + "\n").c_str(), file.get());
-  }
-  result.key = core::read_file(key_file);
-  while (!result.key.empty() && result.key.back() == '\n') result.key.pop_back();
-  if (result.key.size() < 16)
-    throw Error(key_file.string() + ": " + std::to_string(result.key.size()) +
-                " characters, expected 16 or more");
-  if (!fs::exists(result.certificate) || !fs::exists(result.private_key))
+  if (!is_there(key_file)) write_secret(key_file, drawn_key() + "\n");
+  result.key = read_key(key_file);
+  if (!is_there(result.certificate) || !is_there(result.private_key))
     draw_certificate(result, address);
   result.fingerprint = fingerprint_of(result.certificate);
   return result;

@@ -78,10 +78,7 @@ void Hub::tell_time(Time time) {
   {
     const std::lock_guard lock(mutex_);
     time_ = time;
-    for (auto& [id, session] : sessions_) {
-      // A client that is behind needs no more of these.
-      if (!session.has_output()) session.answer(time_message(time), true, Steady::now());
-    }
+    for (auto& [id, session] : sessions_) session.tell_time(time, Steady::now());
   }
   wake();
 }
@@ -134,7 +131,7 @@ void Hub::greet(Session& session, Steady::time_point now) {
   std::vector<Service> services;
   for (const ServiceState& state : services_) services.push_back(state.service);
   session.answer(advertise_services(services), false, now);
-  if (time_) session.answer(time_message(*time_), true, now);
+  if (time_) session.tell_time(*time_, now);
 }
 
 void Hub::close(SessionId session) {
@@ -144,11 +141,26 @@ void Hub::close(SessionId session) {
   for (const auto& [channel, id] : at->second.subscriptions()) --channels_.at(channel).wanted;
   counters_.dropped += at->second.dropped();
   ++counters_.closed;
+  stuck_.erase(session);
   sessions_.erase(at);
+}
+
+bool Hub::has_room(SessionId id) {
+  const std::lock_guard lock(mutex_);
+  const auto at = sessions_.find(id);
+  if (at == sessions_.end()) return false;
+  if (at->second.is_full()) count_stuck(id);
+  return !at->second.is_full();
+}
+
+/// Once, however long it takes until it is closed.
+void Hub::count_stuck(SessionId id) {
+  if (stuck_.insert(id).second) ++counters_.stuck;
 }
 
 bool Hub::hear(SessionId id, std::span<const std::uint8_t> bytes, bool binary,
                Steady::time_point now) {
+  if (!has_room(id)) return false;
   const ClientMessage message = parse_client_message(bytes, binary);
   if (const auto* service_call = std::get_if<ServiceCall>(&message)) {
     call(id, *service_call);
@@ -275,11 +287,11 @@ std::vector<Hub::SessionId> Hub::stuck(Steady::time_point now) {
   for (auto& [id, session] : sessions_) {
     if (session.is_stuck(now)) {
       result.push_back(id);
+      count_stuck(id);
     } else {
       session.tell_drops(now);
     }
   }
-  counters_.stuck += static_cast<long>(result.size());
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,8 @@ class Hub {
 
   [[nodiscard]] SessionId open(const std::string& from, bool sdk, Steady::time_point now);
   void close(SessionId session);
-  /// False where the client is to be cut: what it sends is garbage.
+  /// False where the client is to be cut: what it sends is garbage, or it asks and does not take
+  /// the answers, each of which may have megabytes.
   [[nodiscard]] bool hear(SessionId session, std::span<const std::uint8_t> bytes, bool binary,
                           Steady::time_point now);
   [[nodiscard]] std::optional<Session::Outgoing> take(SessionId session, Steady::time_point now);
@@ -96,6 +98,8 @@ class Hub {
   };
   static constexpr std::size_t kMostKeptBytes = std::size_t{4} << 20;  // of a channel
 
+  [[nodiscard]] bool has_room(SessionId id);
+  void count_stuck(SessionId id);
   void greet(Session& session, Steady::time_point now);
   void take(Session& session, const Subscribe& message, Steady::time_point now);
   void take(Session& session, const Unsubscribe& message);
@@ -112,6 +116,7 @@ class Hub {
   std::map<SessionId, Session> sessions_;
   SessionId last_session_ = 0;
   Counters counters_;
+  std::set<SessionId> stuck_;  // counted; not closed yet
   std::optional<Time> time_;
   Playback playback_;
   std::function<void()> wake_;

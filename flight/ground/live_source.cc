@@ -79,7 +79,7 @@ void LiveSource::step() {
   const double t = system_seconds();
   orders_.step(t, std::chrono::steady_clock::now(),
                [&](const std::string& robot, const Json& order) {
-                 viewers::RobotView* const view = views_.of(robot);
+                 viewers::RobotView* const view = views_.find(robot);  // a name makes no robot
                  if (view == nullptr) return;
                  view->say_order(order, t);
                  view->log(viewers::LogLevel::info,

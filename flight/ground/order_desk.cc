@@ -76,6 +76,8 @@ void OrderDesk::note(const Json& order) {
   const std::string line = order.dump(-1, ' ', false, Json::error_handler_t::replace);
   spdlog::info("order: {}", line);
   if (log_.empty()) return;
+  std::error_code failed;  // is seen by what is written then
+  if (log_.has_parent_path()) std::filesystem::create_directories(log_.parent_path(), failed);
   std::ofstream file(log_, std::ios::app);
   file << line << '\n';
   if (!file) spdlog::warn("cannot write {}", log_.string());

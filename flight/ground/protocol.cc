@@ -126,8 +126,9 @@ ClientMessage playback_control(Reader& reader) {
   const bool seeks = reader.take<std::uint8_t>() != 0;
   const auto seek = reader.take<std::uint64_t>();
   std::string request = reader.take_text(reader.take<std::uint32_t>());
-  if (reader.failed() || command > 1 || !std::isfinite(speed) || seek > INT64_MAX)
-    return Garbage{"playback control that is cut or wrong"};
+  const bool fine = !reader.failed() && command <= 1 && std::isfinite(speed) && seek <= INT64_MAX &&
+                    request.size() <= kMostRequestBytes;
+  if (!fine) return Garbage{"playback control that is cut or wrong"};
   PlaybackControl control{.playing = command == 0,
                           .speed = static_cast<double>(speed),
                           .seek = std::nullopt,

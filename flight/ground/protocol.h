@@ -50,6 +50,7 @@ using ClientMessage =
     std::variant<Subscribe, Unsubscribe, ServiceCall, PlaybackControl, NotOffered, Garbage>;
 
 inline constexpr std::size_t kMostClientBytes = 65536;  ///< of one message
+inline constexpr std::size_t kMostRequestBytes = 256;   ///< of playback's id: it is said to all
 
 /// Never throws; whatever the bytes are.
 [[nodiscard]] ClientMessage parse_client_message(std::span<const std::uint8_t> bytes, bool binary);

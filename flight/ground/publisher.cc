@@ -1,6 +1,10 @@
 #include "flight/ground/publisher.h"
 
+#include <spdlog/spdlog.h>
+
 #include <cmath>
+
+#include "saker/core/error.h"
 
 namespace saker::flight::ground {
 
@@ -27,6 +31,16 @@ const Publisher::Channels& Publisher::channels_of(const std::string& robot) {
   return at->second;
 }
 
+void Publisher::record(const std::function<void(viewers::Recording&)>& add) {
+  if (recording_ == nullptr) return;
+  try {
+    add(*recording_);
+  } catch (const Error& error) {
+    spdlog::error("the recording ends: {}", error.what());
+    recording_ = nullptr;
+  }
+}
+
 void Publisher::publish_due(viewers::RobotViews& views, double t) {
   for (auto& [robot, view] : views.all()) {
     const Channels& channels = channels_of(robot);
@@ -35,11 +49,11 @@ void Publisher::publish_due(viewers::RobotViews& views, double t) {
       return recording_ != nullptr || (channel != 0 && hub_.wanted(channel));
     };
     for (viewers::Said& said : view.take_due(t, wanted_of)) {
-      if (recording_ != nullptr) recording_->add(robot, said);
+      record([&](viewers::Recording& recording) { recording.add(robot, said); });
       const std::uint64_t channel = channels[static_cast<std::size_t>(said.topic)];
       if (channel != 0) hub_.publish(channel, viewers_time(said.t), std::move(said.json));
     }
-    if (recording_ != nullptr) recording_->add_scan(view.state());
+    record([&](viewers::Recording& recording) { recording.add_scan(view.state()); });
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -10,7 +11,8 @@
 
 namespace saker::flight::ground {
 
-/// Robots' views → channels of the hub and, where there is one, a recording.
+/// Robots' views → channels of the hub and, where there is one, a recording. A recording that
+/// cannot be written (a full disk) ends with a line in the log; clients are served on.
 class Publisher {
  public:
   /// \param recording  may be null; it and the hub outlive this
@@ -28,6 +30,7 @@ class Publisher {
 
   [[nodiscard]] bool is_offered(viewers::Topic topic) const;
   const Channels& channels_of(const std::string& robot);
+  void record(const std::function<void(viewers::Recording&)>& add);
 
   Hub& hub_;
   viewers::Recording* recording_;

@@ -138,6 +138,8 @@ void RunSource::say(bool jumped, const std::string& request) {
 }
 
 void RunSource::step(double passed_s) {
+  views_.want_bulk(publisher_.wanted(viewers::Topic::points),
+                   publisher_.wanted(viewers::Topic::occupancy));
   std::vector<Wish> wishes;
   {
     const std::lock_guard lock(mutex_);

@@ -18,10 +18,15 @@ using Steady = Hub::Steady;
 constexpr std::size_t kMostMessage = kMostClientBytes;
 constexpr int kPlain = 0;  // index of the protocol of those that chose none
 
+/// Whole, however long it is: an origin that does not fit is still one.
 std::string header(lws* wsi, lws_token_indexes token) {
-  std::array<char, 256> text{};
+  const int whole = lws_hdr_total_length(wsi, token);
+  if (whole <= 0) return {};
+  std::string text(static_cast<std::size_t>(whole) + 1, '\0');
   const int size = lws_hdr_copy(wsi, text.data(), static_cast<int>(text.size()), token);
-  return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : std::string();
+  if (size < 0) return "unreadable";
+  text.resize(static_cast<std::size_t>(size));
+  return text;
 }
 
 std::string key_in_address(lws* wsi) {

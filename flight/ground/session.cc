@@ -36,6 +36,15 @@ void Session::answer(std::string text, bool binary, Steady::time_point now) {
   answers_.push_back({binary, {}, std::make_shared<const std::string>(std::move(text))});
 }
 
+void Session::tell_time(Time time, Steady::time_point now) {
+  std::string text = time_message(time);
+  const auto waits = std::ranges::find_if(answers_, [&](const Outgoing& answer) {
+    return answer.binary && answer.body->size() == text.size() && answer.body->front() == text[0];
+  });
+  if (waits == answers_.end()) return answer(std::move(text), true, now);
+  waits->body = std::make_shared<const std::string>(std::move(text));
+}
+
 void Session::drop(std::deque<Message>::iterator message) {
   bytes_ -= message->json->size();
   --waiting_[message->channel];
@@ -82,7 +91,7 @@ void Session::tell_drops(Steady::time_point now) {
 }
 
 bool Session::is_stuck(Steady::time_point now) const {
-  if (answer_bytes_ > limits_.most_answer_bytes) return true;
+  if (is_full()) return true;
   return has_output() && now - waits_since_ > limits_.most_wait;
 }
 

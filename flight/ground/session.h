@@ -47,6 +47,8 @@ class Session {
 
   /// Answers and what belongs to the protocol.
   void answer(std::string text, bool binary, Steady::time_point now);
+  /// The time of a run; it takes the place of one that still waits.
+  void tell_time(Time time, Steady::time_point now);
   /// A message of a channel; nothing happens where it is not subscribed to.
   void offer(std::uint64_t channel, Time time, const Text& json, Steady::time_point now);
 
@@ -56,6 +58,8 @@ class Session {
 
   /// Whether it is to be cut: nothing was taken for long, or answers pile up.
   [[nodiscard]] bool is_stuck(Steady::time_point now) const;
+  /// Whether more answers wait than may.
+  [[nodiscard]] bool is_full() const { return answer_bytes_ > limits_.most_answer_bytes; }
 
   [[nodiscard]] const std::string& from() const { return from_; }
   [[nodiscard]] bool sdk() const { return sdk_; }

@@ -66,7 +66,10 @@ McapWriter::McapWriter(const std::filesystem::path& file) : out_(file) {
 }
 
 void McapWriter::put(std::string_view bytes) {
+  if (broken_) throw Error("a recording that broke off is not finished");
+  broken_ = true;  // until it is written
   out_.write(bytes);
+  broken_ = false;
   at_ += bytes.size();
 }
 

@@ -14,7 +14,8 @@ namespace saker::flight::viewers {
 
 /// Writes an MCAP file (the specification of mcap.dev, version 0): messages in chunks of 1 MB,
 /// compressed by zstd, with indices, checksums and a summary. It has its name once it is finished;
-/// without `finish` nothing is left. Throws Error where it cannot be written.
+/// without `finish` nothing is left. Throws Error where it cannot be written, and from then on
+/// always: a file with a hole is never finished.
 class McapWriter {
  public:
   struct Channel {
@@ -47,6 +48,7 @@ class McapWriter {
   [[nodiscard]] std::string statistics() const;
 
   core::OutputFile out_;
+  bool broken_ = false;
   std::uint64_t at_ = 0;  ///< bytes written
   std::uint64_t messages_ = 0;
   std::uint32_t chunks_ = 0;

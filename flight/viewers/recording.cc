@@ -1,14 +1,18 @@
 #include "flight/viewers/recording.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
 #include "flight/viewers/ros_cloud.h"
+#include "saker/core/error.h"
 
 namespace saker::flight::viewers {
 namespace {
 
 constexpr double kStep_s = 0.05;  // faster than any topic
+constexpr double kLongest_s = 30.0 * 24 * 3600;
 
 Time time_of(double t) { return static_cast<Time>(std::llround(t * 1e6)) * 1000; }
 
@@ -55,6 +59,11 @@ void Recording::add_due(RobotViews& views, double t) {
 }
 
 std::uint64_t record_run(Run& run, const Site& site, const std::filesystem::path& file) {
+  if (!(run.end_s() - run.begin_s() <= kLongest_s))
+    throw Error(
+        fmt::format("the times of this run go from {:.0f} s to {:.0f} s, over 30 days: its "
+                    "clock was set meanwhile",
+                    run.begin_s(), run.end_s()));
   RobotViews views(std::make_shared<const Site>(site), std::numeric_limits<double>::infinity());
   views.want_bulk(true, true);
   Recording recording(file);

@@ -31,7 +31,8 @@ class Recording {
   std::map<std::string, double> scans_;            ///< by robot: t of the one that was added last
 };
 
-/// A whole run, in steps of 50 ms. \return messages
+/// A whole run, in steps of 50 ms. \return messages. Throws Error where it seems to last more than
+/// 30 days: the clock was set while it was recorded, and steps would have no end.
 std::uint64_t record_run(Run& run, const Site& site, const std::filesystem::path& file);
 
 }  // namespace saker::flight::viewers

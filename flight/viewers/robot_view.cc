@@ -13,7 +13,7 @@ namespace saker::flight::viewers {
 namespace {
 
 constexpr std::int64_t kRestartBack_us = 1000000;  // the sensor's clock began anew
-constexpr std::size_t kMostEvents = 1000;          // that wait to be said
+constexpr long kMostEvents = 1000;                 // that wait to be said, of a topic
 constexpr std::size_t kMostArrivals = 4096;
 constexpr std::size_t kMostTargets = 4096;
 constexpr std::size_t kMostPoints = 6000;  // of a cloud: 80 kB, 0.1 MB as text
@@ -31,7 +31,13 @@ RobotView::RobotView(std::string robot, core::Colour colour, std::shared_ptr<con
   changed({Topic::site});
 }
 
+/// Where the clock was set back, what was heard before counts as heard now: it must not hide that
+/// nothing comes any more.
 void RobotView::heard(const char* channel, double t) {
+  if (!state_.arrivals.empty() && state_.arrivals.back() > t) {
+    for (auto& [other, at] : state_.heard) at = std::min(at, t);
+    std::erase_if(state_.arrivals, [&](double at) { return at > t; });
+  }
   state_.heard[channel] = t;
   state_.arrivals.push_back(t);
   while (state_.arrivals.size() > kMostArrivals || state_.arrivals.front() < t - 2)
@@ -92,8 +98,7 @@ bool RobotView::hear(const mission_t& message, double t) {
   state_.mission = {message, t};
   if (message.phase == "return" || message.phase == "landing" || message.phase == "done")
     leave_tour();
-  if (const auto json = mission_message(state_, *site_))
-    events_.push_back({Topic::mission, t, *json});
+  if (const auto json = mission_message(state_, *site_)) note(Topic::mission, t, *json);
   return true;
 }
 
@@ -137,7 +142,7 @@ bool RobotView::hear(const object_map_t& message, double t) {
 
 bool RobotView::hear(const health_t& message, double t) {
   heard("HEALTH", t);
-  events_.push_back({Topic::health, t, health_message(message)});
+  note(Topic::health, t, health_message(message));
   return true;
 }
 
@@ -212,14 +217,19 @@ void RobotView::forget_flight() {
   chosen_trajectory_ = 0;
 }
 
-void RobotView::log(LogLevel level, const std::string& text, double t) {
-  events_.push_back({Topic::log, t, log_message(state_.robot, level, text, t)});
-  while (events_.size() > kMostEvents) events_.pop_front();
+/// Of too many of a topic the oldest go; those of other topics stay.
+void RobotView::note(Topic topic, double t, Json json) {
+  const auto of_topic = [&](const Event& event) { return event.topic == topic; };
+  if (std::ranges::count_if(events_, of_topic) >= kMostEvents)
+    events_.erase(std::ranges::find_if(events_, of_topic));
+  events_.push_back({topic, t, std::move(json)});
 }
 
-void RobotView::say_order(const Json& order, double t) {
-  events_.push_back({Topic::orders, t, order});
+void RobotView::log(LogLevel level, const std::string& text, double t) {
+  note(Topic::log, t, log_message(state_.robot, level, text, t));
 }
+
+void RobotView::say_order(const Json& order, double t) { note(Topic::orders, t, order); }
 
 void RobotView::watch_link(double t) {
   if (!std::isfinite(lost_s_) || state_.heard.empty()) return;

@@ -65,6 +65,7 @@ class RobotView {
 
  private:
   void heard(const char* channel, double t);
+  void note(Topic topic, double t, Json json);
   void changed(std::initializer_list<Topic> topics);
   void take_tour(const plan_t& plan);
   void leave_tour();

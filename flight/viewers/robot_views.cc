@@ -17,6 +17,11 @@ RobotViews::RobotViews(std::shared_ptr<const Site> site, double lost_s)
 
 RobotView* RobotViews::of(const std::string& robot) { return add(robot, site_); }
 
+RobotView* RobotViews::find(const std::string& robot) {
+  const auto at = views_.find(robot);
+  return at == views_.end() ? nullptr : &at->second;
+}
+
 RobotView* RobotViews::add(const std::string& robot, std::shared_ptr<const Site> site) {
   const auto at = views_.find(robot);
   if (at != views_.end()) return &at->second;
@@ -38,7 +43,9 @@ bool RobotViews::hear_scan(RobotView& view, Bytes bytes, double t) {
   ScanJoiner& joiner = scan_joiners_[view.state().robot];
   auto scan = message ? joiner.add(std::move(*message)) : std::nullopt;
   if (scan) view.hear(std::move(*scan), t);
-  return message && joiner.accepted();
+  const bool fine = message && joiner.accepted();
+  if (!fine) view.count_malformed();
+  return fine;
 }
 
 bool RobotViews::hear_occupancy(RobotView& view, Bytes bytes, double t) {
@@ -46,7 +53,9 @@ bool RobotViews::hear_occupancy(RobotView& view, Bytes bytes, double t) {
   OccupancyJoiner& joiner = occupancy_joiners_[view.state().robot];
   auto grid = message ? joiner.add(std::move(*message)) : std::nullopt;
   if (grid) view.hear(std::move(*grid), t);
-  return message && joiner.accepted();
+  const bool fine = message && joiner.accepted();
+  if (!fine) view.count_malformed();
+  return fine;
 }
 
 bool RobotViews::hear(const std::string& channel, Bytes bytes, double t) {

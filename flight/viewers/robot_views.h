@@ -22,6 +22,8 @@ class RobotViews {
 
   /// The robot's view, made where it is new; null where there are too many.
   RobotView* of(const std::string& robot);
+  /// The view of one that was heard; null where it was not. Makes none.
+  [[nodiscard]] RobotView* find(const std::string& robot);
   /// With a site of its own: a run's robot, with its prior map.
   RobotView* add(const std::string& robot, std::shared_ptr<const Site> site);
 

@@ -108,9 +108,18 @@ void take_events(const Json& results, double begin_s, RobotRun& run) {
   }
 }
 
+/// Copying and writing JSON takes a stack as deep as it is nested: a file must not end the program.
+Json parsed(const fs::path& file) {
+  constexpr int kDeepest = 64;
+  return Json::parse(core::read_file(file), [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > kDeepest) throw Error(fmt::format("{}: nested over 64 deep", file.string()));
+    return true;
+  });
+}
+
 void read_results(const fs::path& file, RobotRun& run) {
   try {
-    run.figures = Json::parse(core::read_file(file));
+    run.figures = parsed(file);
     const double begin_s = run.poses.empty() ? 0 : run.poses.front().t;
     take_events(run.figures, begin_s, run);
     for (const Json& target : run.figures.value("target_list", Json::array()))

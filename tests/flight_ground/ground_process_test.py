@@ -1,6 +1,8 @@
 """saker-ground by processes: real LCM of a made robot, real sockets of clients, good and bad ones."""
 
 import asyncio
+import contextlib
+import json
 import os
 import pathlib
 import re
@@ -8,6 +10,7 @@ import resource
 import signal
 import socket
 import ssl
+import struct
 import subprocess
 import sys
 import tempfile
@@ -164,6 +167,20 @@ class Live(GroundTest):
                                                            "TRAJECTORY", "HEALTH", "OBJECTS")})
 
     @on
+    async def test_an_order_to_a_name_makes_no_robot(self):
+        self.robot(seconds=20)
+        _, address = self.ground()
+        async with Client(socket_of(address)) as client:
+            await client.subscribe("/R1/state")
+            answer = await client.call("order", {"robot": "R9", "kind": "hold"})
+            self.assertEqual(answer["state"], "refused")
+            client.messages.clear()
+            await client.newest("/R1/state")
+            self.assertFalse([topic for topic in client.channels if topic.startswith("/R9/")])
+        log = (self.folder / "ground/orders.log").read_text()
+        self.assertIn('"robot":"R9","kind":"hold","by":"127.0.0.1"', log)
+
+    @on
     async def test_a_recording_is_whole_or_not_there(self):
         self.robot()
         file = self.folder / "flight.mcap"
@@ -194,6 +211,10 @@ class Clients(GroundTest):
             with self.assertRaises(Exception, msg=options):
                 async with Client(socket_of(address), **options):
                     pass
+        far = "https://" + ".".join(["a" * 60] * 5) + ".example"  # longer than any buffer: it is one all the same
+        with self.assertRaises(Exception):
+            async with Client(socket_of(address), origin=far):
+                pass
         with self.assertRaises(Exception):
             async with Client(socket_of(address), "chat"):
                 pass
@@ -247,6 +268,41 @@ class Clients(GroundTest):
         self.assertEqual(self.stop(process), 0)
         totals = (self.folder / "ground.log").read_text()
         self.assertRegex(totals, r"\b1 cut that took nothing, 30 cut that sent garbage")
+
+    @on
+    async def test_one_that_asks_for_much_and_takes_nothing_is_cut_at_once(self):
+        self.robot(objects=200)
+        process, address = self.ground()
+        async with Client(socket_of(address)) as good:
+            await good.subscribe("/R1/objects", "/R1/odometry")
+            await good.newest("/R1/objects", lambda m: len(m["objects"]) == 200, 20)
+            await asyncio.sleep(5)  # some of it is kept
+            greedy = await Client(socket_of(address)).__aenter__()
+            greedy.socket.transport.pause_reading()
+            before = memory_mb(process)
+            call = struct.pack("<BIII", 2, greedy.services["history"]["id"], 1, 4) + b'json{"topic":"/R1/objects","seconds":600}'
+            with contextlib.suppress(websockets.ConnectionClosed, asyncio.TimeoutError):
+                for _ in range(2000):
+                    await asyncio.wait_for(greedy.socket.send(call), 5)
+            await asyncio.sleep(2)
+            good.messages.clear()
+            await good.newest("/R1/odometry")
+            self.assertLess(memory_mb(process) - before, 64)
+            greedy.socket.transport.abort()
+
+    @on
+    async def test_a_message_in_pieces_is_one_and_one_that_is_too_long_is_none(self):
+        self.robot()
+        _, address = self.ground()
+        async with Client(socket_of(address)) as client:
+            await client.until(lambda: "/R1/state" in client.channels)
+            client.topics[0] = "/R1/state"
+            whole = json.dumps({"op": "subscribe", "subscriptions": [{"id": 0, "channelId": client.channels["/R1/state"]["id"]}]})
+            await client.socket.send([whole[:9], whole[9:20], whole[20:]])
+            await client.newest("/R1/state")
+            await client.socket.send(" " * 70000)
+            with self.assertRaises(websockets.ConnectionClosed):
+                await client.until(lambda: False, 5)
 
     @on
     async def test_too_many_connections_leave_the_others_alone(self):

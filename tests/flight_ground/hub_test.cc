@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <set>
+#include <thread>
+
 namespace saker::flight::ground {
 namespace {
 
@@ -167,6 +171,199 @@ TEST_F(HubTest, PlaybackIsToldToThoseWhoKnowIt) {
   hub.tell_playback(PlaybackStatus::paused, 1, 1, false, "r");
   EXPECT_TRUE(v1.take_all().empty());
   EXPECT_EQ(sdk.take_all().size(), 1u);
+}
+
+TEST_F(HubTest, OneThatAsksAndNeverTakesIsCutBeforeItHoldsMuch) {
+  hub.publish(newest, 1, '"' + std::string(4000000, 'x') + '"');
+  Client greedy(hub);
+  std::string message = service_response(1, 5, R"({"topic":"/R1/state","seconds":1})");
+  message[0] = 2;
+  int answered = 0;
+  while (answered < 1000 &&
+         hub.hear(greedy.id,
+                  {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()}, true,
+                  kNow))
+    ++answered;
+  EXPECT_LE(answered, 5);  // of 4 MB each, where 16 MB may wait
+  EXPECT_GE(answered, 4);
+}
+
+TEST_F(HubTest, OneThatIsCutIsCountedOnceHoweverLongItTakes) {
+  Hub small({.mode = "live", .version = "1", .session = "s", .begin = {}, .end = {}},
+            {.most_answer_bytes = 10});
+  Client client(small);  // its greeting is more than that
+  EXPECT_FALSE(client.say(R"({"op":"unsubscribe","subscriptionIds":[]})"));
+  EXPECT_EQ(small.stuck(kNow), std::vector<Hub::SessionId>{client.id});
+  EXPECT_EQ(small.stuck(kNow).size(), 1u);
+  EXPECT_EQ(small.counters().stuck, 1);
+  small.close(client.id);
+  EXPECT_TRUE(small.stuck(kNow).empty());
+  EXPECT_EQ(small.counters().stuck, 1);
+  EXPECT_EQ(small.counters().garbage, 0);
+}
+
+TEST_F(HubTest, OneThatTakesNothingForLongIsStuckOthersAreNot) {
+  Client slow(hub), quick(hub);
+  quick.take_all();
+  EXPECT_TRUE(hub.stuck(kNow + std::chrono::seconds(9)).empty());
+  EXPECT_EQ(hub.stuck(kNow + std::chrono::seconds(11)), std::vector<Hub::SessionId>{slow.id});
+}
+
+TEST_F(HubTest, WhoIsGoneIsNotHeard) {
+  Client client(hub);
+  hub.close(client.id);
+  EXPECT_FALSE(client.say(R"({"op":"unsubscribe","subscriptionIds":[]})"));
+  EXPECT_TRUE(client.take_all().empty());
+  hub.close(client.id);  // twice is once
+  EXPECT_EQ(hub.counters().closed, 1);
+}
+
+TEST_F(HubTest, NoSessionsIdIsUsedAgain) {
+  std::set<Hub::SessionId> ids;
+  for (int i = 0; i < 5; ++i) {
+    Client client(hub);
+    EXPECT_TRUE(ids.insert(client.id).second);
+    hub.close(client.id);
+  }
+  EXPECT_EQ(hub.counters().opened, 5);
+}
+
+TEST_F(HubTest, UnsubscribingFromWhatIsNotSubscribedToDoesNothing) {
+  Client a(hub), b(hub);
+  a.subscribe(1, newest);
+  EXPECT_TRUE(b.say(R"({"op":"unsubscribe","subscriptionIds":[1,2,3]})"));
+  EXPECT_TRUE(a.say(R"({"op":"unsubscribe","subscriptionIds":[7]})"));
+  EXPECT_TRUE(hub.wanted(newest));
+  EXPECT_TRUE(a.say(R"({"op":"unsubscribe","subscriptionIds":[1,1]})"));
+  EXPECT_FALSE(hub.wanted(newest));
+}
+
+TEST_F(HubTest, ASecondSubscriptionToAChannelIsRefusedAndCountsNot) {
+  Client client(hub);
+  client.subscribe(1, newest);
+  client.take_all();
+  client.subscribe(2, newest);
+  EXPECT_EQ(Json::parse(client.take_all().at(0))["level"], 2);
+  hub.close(client.id);
+  EXPECT_FALSE(hub.wanted(newest));
+}
+
+TEST_F(HubTest, WhatWasKeptIsForgottenAfterAJump) {
+  hub.publish(newest, 1, "1");
+  hub.publish(events, 1, "1");
+  hub.forget();
+  Client client(hub);
+  client.take_all();
+  client.subscribe(1, newest);
+  client.subscribe(2, events);
+  EXPECT_TRUE(client.take_all().empty());
+}
+
+TEST_F(HubTest, TheTimeOfARunIsToldToAllTheNewestAlone) {
+  Client early(hub);
+  early.subscribe(1, newest);
+  early.take_all();
+  hub.publish(newest, 5, "5");  // what waits keeps no time back
+  hub.tell_time(5);
+  hub.tell_time(6);
+  EXPECT_EQ(early.take_all(), (std::vector<std::string>{time_message(6), "5"}));
+  Client late(hub);
+  EXPECT_EQ(late.take_all().back(), time_message(6));
+}
+
+TEST_F(HubTest, HistoryNeverHasMoreThan240Messages) {
+  const std::uint64_t long_one = hub.add_channel("/R1/long", "s", "{}", 1000, false);
+  for (int i = 0; i < 1000; ++i) hub.publish(long_one, i, std::to_string(i));
+  Client client(hub);
+  client.take_all();
+  client.call(1, R"({"topic":"/R1/long","seconds":1e300})");
+  const std::string answer = client.take_all().at(0);
+  const Json messages = Json::parse(answer.substr(answer.find('{')))["messages"];
+  ASSERT_EQ(messages.size(), 240u);
+  EXPECT_EQ(messages.back()["message"], 999);
+}
+
+TEST_F(HubTest, HistoryOfNoSecondsIsTheNewestMessage) {
+  for (int i = 0; i < 3; ++i) hub.publish(newest, i * kNanosecondsPerSecond, std::to_string(i));
+  Client client(hub);
+  client.take_all();
+  for (const char* seconds : {"0", "-1", "-1e300"}) {
+    client.call(1, std::string(R"({"topic":"/R1/state","seconds":)") + seconds + "}");
+    const std::string answer = client.take_all().at(0);
+    EXPECT_EQ(Json::parse(answer.substr(answer.find('{')))["messages"].size(), 1u) << seconds;
+  }
+}
+
+TEST_F(HubTest, HistoryOfWhatSaidNothingYetIsEmpty) {
+  Client client(hub);
+  client.take_all();
+  client.call(1, R"({"topic":"/R1/state","seconds":60})");
+  const std::string answer = client.take_all().at(0);
+  EXPECT_EQ(Json::parse(answer.substr(answer.find('{'))),
+            Json::parse(R"({"topic":"/R1/state","messages":[]})"));
+}
+
+TEST_F(HubTest, ACallInAnotherEncodingFails) {
+  Client client(hub);
+  client.take_all();
+  const std::string call("\2\1\0\0\0\5\0\0\0\4\0\0\0cbor\xa0", 18);
+  EXPECT_TRUE(hub.hear(client.id, {reinterpret_cast<const std::uint8_t*>(call.data()), call.size()},
+                       true, kNow));
+  EXPECT_EQ(Json::parse(client.take_all().at(0))["message"], "expected the encoding json");
+}
+
+TEST_F(HubTest, PayloadsOfNoUtf8AreNoJson) {
+  Client client(hub);
+  client.take_all();
+  client.call(1, "{\"topic\":\"/\xff\xfe\",\"seconds\":1}");
+  EXPECT_EQ(Json::parse(client.take_all().at(0))["op"], "serviceCallFailure");
+}
+
+TEST_F(HubTest, WhatClientsMissedIsCountedWhenTheyAreGone) {
+  Hub small({.mode = "live", .version = "1", .session = "s", .begin = {}, .end = {}},
+            {.most_messages = 2});
+  const std::uint64_t channel = small.add_channel("/R1/a", "s", "{}", 1, false);
+  Client client(small);
+  client.subscribe(1, channel);
+  for (int i = 0; i < 5; ++i) small.publish(channel, i, "1");
+  EXPECT_EQ(small.counters().dropped, 3);
+  small.close(client.id);
+  EXPECT_EQ(small.counters().dropped, 3);
+}
+
+TEST_F(HubTest, TheServerIsWokenWhereThereIsSomethingToSend) {
+  int woken = 0;
+  hub.on_output([&] { ++woken; });
+  hub.publish(newest, 1, "1");
+  EXPECT_EQ(woken, 0);  // nobody wants it
+  Client client(hub);
+  client.subscribe(1, newest);
+  EXPECT_EQ(hub.with_output(), std::vector<Hub::SessionId>{client.id});
+  client.take_all();
+  EXPECT_TRUE(hub.with_output().empty());
+  hub.publish(newest, 2, "2");
+  EXPECT_EQ(woken, 1);
+  EXPECT_EQ(hub.with_output().size(), 1u);
+}
+
+TEST_F(HubTest, ClientsComeAndGoWhileTheSourcePublishes) {
+  std::atomic<bool> over = false;
+  std::thread source([&] {
+    for (int i = 0; !over; ++i) {
+      hub.publish(newest, i, std::to_string(i));
+      std::this_thread::sleep_for(std::chrono::microseconds(10));
+    }
+  });
+  for (int i = 0; i < 200; ++i) {
+    Client client(hub);
+    client.subscribe(1, newest);
+    for (int k = 0; k < 20; ++k) static_cast<void>(hub.take(client.id, kNow));
+    hub.close(client.id);
+  }
+  over = true;
+  source.join();
+  EXPECT_EQ(hub.sessions(), 0u);
+  EXPECT_FALSE(hub.wanted(newest));
 }
 
 }  // namespace

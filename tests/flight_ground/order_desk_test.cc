@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "flight_viewers/scratch_folder.h"
@@ -116,6 +117,131 @@ TEST_F(OrderDeskTest, WhatIsNoOrderIsRefusedAtOnce) {
   }
   step(desk, 1);
   EXPECT_TRUE(robot.sent.empty());
+}
+
+TEST_F(OrderDeskTest, TheFolderOfItsLogIsMade) {
+  OrderDesk desk(nullptr, scratch / "saker-ground/kept/orders.log");
+  begin(desk);
+  ask(R"({"robot":"R1","kind":"land"})");
+  step(desk, 100);
+  const Json line = Json::parse(core::read_file(scratch / "saker-ground/kept/orders.log"));
+  EXPECT_EQ(line["state"], "refused");
+  EXPECT_EQ(line["by"], "10.0.0.7");
+}
+
+TEST_F(OrderDeskTest, AnEarlierLogIsAddedTo) {
+  core::write_file(scratch / "orders.log", "{}\n");
+  OrderDesk desk(nullptr, scratch / "orders.log");
+  begin(desk);
+  ask(R"({"robot":"R1","kind":"land"})");
+  step(desk, 100);
+  EXPECT_TRUE(core::read_file(scratch / "orders.log").starts_with("{}\n{\"id\":0,"));
+}
+
+TEST_F(OrderDeskTest, ALogThatCannotBeWrittenKeepsNoOrderBack) {
+  core::write_file(scratch / "file", "");
+  auto line = std::make_unique<MadeLine>();
+  MadeLine& robot = *line;
+  OrderDesk desk(std::move(line), scratch / "file/orders.log");
+  begin(desk);
+  ask(R"({"robot":"R1","kind":"land"})");
+  step(desk, 100);
+  EXPECT_EQ(robot.sent.size(), 1u);
+}
+
+TEST_F(OrderDeskTest, EachOrderGetsItsOwnAnswerInWhateverOrderTheyCome) {
+  auto line = std::make_unique<MadeLine>();
+  MadeLine& robot = *line;
+  OrderDesk desk(std::move(line), {});
+  begin(desk);
+  ask(R"({"robot":"R1","kind":"hold"})");
+  ask(R"({"robot":"R2","kind":"land"})");
+  step(desk, 100);
+  robot.answers[2] = {OrderLine::State::silent, ""};
+  step(desk, 105);
+  const auto first = answers();
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_NE(first[0].find(R"("robot":"R2","kind":"land")"), std::string::npos);
+  EXPECT_NE(first[0].find(R"("state":"silent")"), std::string::npos);
+  robot.answers[1] = {OrderLine::State::acknowledged, ""};
+  step(desk, 106);
+  EXPECT_NE(answers().at(0).find(R"("robot":"R1","kind":"hold")"), std::string::npos);
+  step(desk, 107);
+  EXPECT_TRUE(answers().empty());  // each once
+}
+
+TEST_F(OrderDeskTest, MoreThan32AtOnceAreRefused) {
+  auto line = std::make_unique<MadeLine>();
+  MadeLine& robot = *line;
+  OrderDesk desk(std::move(line), {});
+  begin(desk);
+  for (int i = 0; i < 40; ++i) ask(R"({"robot":"R1","kind":"hold"})");
+  const auto refused = answers();
+  EXPECT_EQ(refused.size(), 8u);
+  EXPECT_NE(refused.at(0).find("too many orders at once"), std::string::npos);
+  step(desk, 100);
+  EXPECT_EQ(robot.sent.size(), 32u);
+}
+
+TEST_F(OrderDeskTest, AnOrderOfWhoIsGoneIsStillSentAndWrittenDown) {
+  auto line = std::make_unique<MadeLine>();
+  MadeLine& robot = *line;
+  OrderDesk desk(std::move(line), scratch / "orders.log");
+  begin(desk);
+  ask(R"({"robot":"R1","kind":"land"})");
+  hub.close(client);
+  step(desk, 100);
+  robot.answers[1] = {OrderLine::State::acknowledged, ""};
+  step(desk, 101);
+  EXPECT_EQ(robot.sent, std::vector<std::string>{"R1 land"});
+  EXPECT_EQ(said.back()["state"], "acknowledged");
+}
+
+TEST_F(OrderDeskTest, WhatARobotAnswersIsSaidAsUtf8) {
+  auto line = std::make_unique<MadeLine>();
+  line->answers[1] = {OrderLine::State::refused, "bad \xff byte\nand a line"};
+  OrderDesk desk(std::move(line), scratch / "orders.log");
+  begin(desk);
+  ask(R"({"robot":"R1","kind":"hold"})");
+  EXPECT_NO_THROW(step(desk, 100));
+  const std::string answer = answers().at(0);
+  EXPECT_EQ(Json::parse(answer.substr(answer.find('{')))["text"],
+            "bad \xef\xbf\xbd byte\nand a line");
+  const std::string log = core::read_file(scratch / "orders.log");
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 2);  // a line an entry: no text adds one
+}
+
+TEST_F(OrderDeskTest, ALineThatComesLaterIsUsedFromThenOn) {
+  OrderDesk desk(nullptr, {});
+  begin(desk);
+  auto line = std::make_unique<MadeLine>();
+  MadeLine& robot = *line;
+  desk.send_by(std::move(line));
+  ask(R"({"robot":"R1","kind":"hold"})");
+  step(desk, 100);
+  EXPECT_EQ(robot.sent.size(), 1u);
+}
+
+TEST_F(OrderDeskTest, ANameIsOneWholeRobotsName) {
+  OrderDesk desk(std::make_unique<MadeLine>(), {});
+  begin(desk);
+  for (const std::string& robot :
+       {std::string("R1\\n"), std::string("R1 "), std::string("../R1"), std::string("1R"),
+        std::string(17, 'R'), std::string(60000, 'R')}) {
+    ask(R"({"kind":"hold","robot":")" + robot + R"("})");
+    EXPECT_NE(answers().at(0).find("serviceCallFailure"), std::string::npos) << robot.size();
+  }
+  ask(R"({"kind":"hold","robot":")" + std::string(16, 'R') + R"("})");
+  EXPECT_TRUE(answers().empty());
+}
+
+TEST_F(OrderDeskTest, AKindIsOneOfTheFiveAsTheyAreWritten) {
+  OrderDesk desk(std::make_unique<MadeLine>(), {});
+  begin(desk);
+  for (const char* kind : {"", "Hold", "hold ", "takeoff", "land;abort"}) {
+    ask(std::string(R"({"robot":"R1","kind":")") + kind + R"("})");
+    EXPECT_NE(answers().at(0).find("serviceCallFailure"), std::string::npos) << kind;
+  }
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 namespace saker::flight::ground {
 namespace {
@@ -115,6 +117,137 @@ TEST(Protocol, AnAdvertisementIsJsonWithASchema) {
   EXPECT_EQ(channel["encoding"], "json");
   EXPECT_EQ(channel["schemaEncoding"], "jsonschema");
   EXPECT_EQ(Json::parse(channel["schema"].get<std::string>())["type"], "object");
+}
+
+/// Playback control: command, speed, whether it seeks, where to, and its id.
+std::vector<std::uint8_t> control(std::uint8_t command, float speed, bool seeks, std::uint64_t seek,
+                                  const std::string& request) {
+  std::vector<std::uint8_t> message = {3, command};
+  const auto add = [&](std::uint64_t value, int size) {
+    for (int i = 0; i < size; ++i) message.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  };
+  add(std::bit_cast<std::uint32_t>(speed), 4);
+  add(seeks ? 1 : 0, 1);
+  add(seek, 8);
+  add(request.size(), 4);
+  message.insert(message.end(), request.begin(), request.end());
+  return message;
+}
+
+TEST(Protocol, PlaybackWithoutASeekStaysWhereItIs) {
+  const auto parsed = bytes(control(1, 2, false, 77, ""));
+  ASSERT_TRUE(is<PlaybackControl>(parsed));
+  EXPECT_FALSE(std::get<PlaybackControl>(parsed).playing);
+  EXPECT_EQ(std::get<PlaybackControl>(parsed).seek, std::nullopt);
+}
+
+TEST(Protocol, PlaybackOfNoNumberIsGarbage) {
+  for (const float speed : {NAN, INFINITY, -INFINITY})
+    EXPECT_TRUE(is<Garbage>(bytes(control(0, speed, false, 0, "")))) << speed;
+  EXPECT_TRUE(is<Garbage>(bytes(control(2, 1, false, 0, ""))));
+  EXPECT_TRUE(is<Garbage>(bytes(control(0, 1, true, UINT64_MAX, ""))));
+  EXPECT_TRUE(is<PlaybackControl>(bytes(control(0, 1, true, INT64_MAX, ""))));
+}
+
+/// It is said to every client: one must not make the server say kilobytes to all.
+TEST(Protocol, TheIdOfPlaybackIsShort) {
+  EXPECT_TRUE(is<PlaybackControl>(bytes(control(0, 1, false, 0, std::string(256, 'i')))));
+  EXPECT_TRUE(is<Garbage>(bytes(control(0, 1, false, 0, std::string(257, 'i')))));
+}
+
+TEST(Protocol, EveryMessageThatIsCutIsGarbage) {
+  const std::vector<std::vector<std::uint8_t>> whole = {
+      control(0, 1, true, 5, "some-id"),
+      {2, 4, 0, 0, 0, 9, 0, 0, 0, 4, 0, 0, 0, 'j', 's', 'o', 'n'}};
+  for (const auto& message : whole) {
+    EXPECT_FALSE(is<Garbage>(bytes(message)));
+    for (std::size_t size = 0; size < message.size(); ++size) {
+      const std::vector<std::uint8_t> cut(message.begin(),
+                                          message.begin() + static_cast<std::ptrdiff_t>(size));
+      EXPECT_TRUE(is<Garbage>(bytes(cut))) << size;
+    }
+  }
+}
+
+TEST(Protocol, EveryTextThatIsCutIsGarbage) {
+  const std::string whole = R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]})";
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_TRUE(is<Garbage>(text(whole.substr(0, size)))) << size;
+}
+
+TEST(Protocol, WhateverTheBytesItNeverThrows) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20000; ++round) {
+    std::vector<std::uint8_t> message(random() % 40);
+    for (std::uint8_t& byte : message) byte = static_cast<std::uint8_t>(random());
+    if (!message.empty()) message[0] = static_cast<std::uint8_t>(random() % 5);
+    EXPECT_NO_THROW(static_cast<void>(bytes(message)));
+    EXPECT_NO_THROW(static_cast<void>(parse_client_message(message, false)));
+  }
+}
+
+TEST(Protocol, TextOfNoUtf8IsGarbage) {
+  EXPECT_TRUE(is<Garbage>(text("{\"op\":\"subscribe\",\"x\":\"\xc3\x28\",\"subscriptions\":[]}")));
+}
+
+TEST(Protocol, TheLargestIdsAreIds) {
+  const auto message = text(
+      R"({"op":"subscribe","subscriptions":[{"id":4294967295,"channelId":18446744073709551615}]})");
+  ASSERT_TRUE(is<Subscribe>(message));
+  EXPECT_EQ(std::get<Subscribe>(message).subscriptions[0].id, UINT32_MAX);
+  EXPECT_EQ(std::get<Subscribe>(message).subscriptions[0].channel, UINT64_MAX);
+}
+
+TEST(Protocol, MoreSubscriptionsThanThereCanBeChannelsAreGarbage) {
+  Json ids = Json::array();
+  for (int i = 0; i < 4097; ++i) ids.push_back(i);
+  const auto asked = [](const Json& list) {
+    return text(Json({{"op", "unsubscribe"}, {"subscriptionIds", list}}).dump());
+  };
+  EXPECT_TRUE(is<Garbage>(asked(ids)));
+  ids.erase(0);
+  EXPECT_TRUE(is<Unsubscribe>(asked(ids)));
+}
+
+TEST(Protocol, AMessageMayHave64Kilobytes) {
+  EXPECT_FALSE(is<Garbage>(bytes({1})));
+  EXPECT_TRUE(is<Garbage>(bytes({})));
+  std::vector<std::uint8_t> largest(kMostClientBytes, 0);
+  largest[0] = 1;
+  EXPECT_TRUE(is<NotOffered>(bytes(largest)));
+  largest.push_back(0);
+  EXPECT_TRUE(is<Garbage>(bytes(largest)));
+}
+
+TEST(Protocol, PlaybacksStateHasTheBytesOfTheSdk) {
+  EXPECT_EQ(playback_state(PlaybackStatus::paused, 258, 1, true, "r"),
+            std::string("\5\1\2\1\0\0\0\0\0\0\0\0\x80\x3f\1\1\0\0\0r", 20));  // 1.0f is 3f800000
+}
+
+TEST(Protocol, AFailureNamesItsServiceAndCall) {
+  EXPECT_EQ(Json::parse(service_failure(3, 4294967295, "no")), Json({{"op", "serviceCallFailure"},
+                                                                     {"serviceId", 3},
+                                                                     {"callId", 4294967295},
+                                                                     {"message", "no"}}));
+}
+
+TEST(Protocol, AStatusHasAnIdWhereItIsGivenOne) {
+  EXPECT_FALSE(Json::parse(status(1, "a")).contains("id"));
+  EXPECT_EQ(Json::parse(status(1, "a", "drops"))["id"], "drops");
+}
+
+TEST(Protocol, WhatTheServerSaysIsUtf8WhateverItWasGiven) {
+  const Json said = Json::parse(status(2, "robot said \xff"));
+  EXPECT_EQ(said["message"], "robot said \xef\xbf\xbd");  // U+FFFD
+}
+
+TEST(Protocol, AServiceIsAdvertisedWithBothSchemas) {
+  const Json said = Json::parse(advertise_services({{2, "order", R"({"a":1})", R"({"b":1})"}}));
+  const Json& service = said["services"][0];
+  EXPECT_EQ(service["id"], 2);
+  EXPECT_EQ(service["request"]["schema"], R"({"a":1})");
+  EXPECT_EQ(service["response"]["schema"], R"({"b":1})");
+  EXPECT_EQ(service["request"]["encoding"], "json");
 }
 
 }  // namespace

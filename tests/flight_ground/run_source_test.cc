@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+
+#include "flight/bus/scan_messages.h"
 #include "flight_viewers/made_robot.h"
 
 namespace saker::flight::ground {
@@ -131,6 +135,169 @@ TEST_F(RunSourceTest, AnswersWhereItIs) {
   EXPECT_NE(take().at(0).find("serviceCallFailure"), std::string::npos);
   call(kSeek, R"({"t_s": "x"})");
   EXPECT_NE(take().at(0).find("serviceCallFailure"), std::string::npos);
+}
+
+bool has(const std::vector<std::string>& said, const std::string& what) {
+  return std::ranges::find(said, what) != said.end();
+}
+
+/// Playback control of the protocol, as the SDK's clients send it.
+std::string control(bool playing, float speed, std::optional<std::uint64_t> seek,
+                    const std::string& request) {
+  std::string message = {'\3', playing ? '\0' : '\1'};
+  const auto add = [&](std::uint64_t value, int size) {
+    for (int i = 0; i < size; ++i) message += static_cast<char>(value >> (8 * i) & 0xff);
+  };
+  add(std::bit_cast<std::uint32_t>(speed), 4);
+  add(seek ? 1 : 0, 1);
+  add(seek.value_or(0), 8);
+  add(request.size(), 4);
+  return message + request;
+}
+
+TEST_F(RunSourceTest, ThePlaybackControlOfTheProtocolSeeksAndPlays) {
+  const std::string message = control(true, 2, 104500000000, "id-7");
+  EXPECT_TRUE(hub.hear(
+      client, {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()}, true, now));
+  take();
+  source.step(0);
+  EXPECT_EQ(source.state().t_s, 104.5);
+  EXPECT_TRUE(source.state().playing);
+  EXPECT_EQ(source.state().speed, 2);
+  EXPECT_TRUE(has(take(), playback_state(PlaybackStatus::playing, 104500000000, 2, true, "id-7")));
+}
+
+TEST_F(RunSourceTest, ItsEndIsToldOnce) {
+  call(kSeek, R"({"t_s": 109})");
+  call(kPlay, R"({"playing": true})");
+  source.step(0);
+  take();
+  source.step(5);
+  const std::string ended = playback_state(PlaybackStatus::ended, 110000000000, 1, false, "");
+  EXPECT_TRUE(has(take(), ended));
+  source.step(5);
+  EXPECT_FALSE(has(take(), ended));
+}
+
+TEST_F(RunSourceTest, PausedItStays) {
+  call(kSeek, R"({"t_s": 103})");
+  call(kPlay, R"({"playing": false})");
+  source.step(0);
+  for (int i = 0; i < 10; ++i) source.step(1);
+  EXPECT_EQ(source.state().t_s, 103);
+}
+
+TEST_F(RunSourceTest, ASeekStaysWithinTheRun) {
+  call(kSeek, R"({"t_s": -1e300})");
+  source.step(0);
+  EXPECT_EQ(source.state().t_s, 100);
+  call(kSeek, R"({"t_s": 1e300})");
+  source.step(0);
+  EXPECT_EQ(source.state().t_s, 110);
+}
+
+TEST_F(RunSourceTest, ASpeedIsATenthToAHundred) {
+  for (const auto& [asked, given] :
+       {std::pair{"0", 0.1}, {"-5", 0.1}, {"7", 7.0}, {"1e300", 100.0}}) {
+    call(kPlay, std::string(R"({"playing": false, "speed": )") + asked + "}");
+    source.step(0);
+    EXPECT_DOUBLE_EQ(source.state().speed, given) << asked;
+  }
+}
+
+TEST_F(RunSourceTest, ASeekWhilePlayingPlaysOnFromThere) {
+  call(kPlay, R"({"playing": true, "speed": 1})");
+  source.step(1);
+  call(kSeek, R"({"t_s": 107})");
+  source.step(0);
+  source.step(1);
+  EXPECT_TRUE(source.state().playing);
+  EXPECT_NEAR(source.state().t_s, 108, 1e-9);
+}
+
+TEST_F(RunSourceTest, MoreThanCanBeDoneAtOnceIsRefused) {
+  take();
+  for (int i = 0; i < 70; ++i) call(kSeek, R"({"t_s": 103})");
+  const auto refused = take();
+  EXPECT_EQ(refused.size(), 6u);
+  EXPECT_NE(refused.at(0).find("too much was asked at once"), std::string::npos);
+  source.step(0);
+  call(kSeek, R"({"t_s": 104})");
+  source.step(0);
+  EXPECT_EQ(source.state().t_s, 104);
+}
+
+TEST_F(RunSourceTest, HistoryAfterAJumpHoldsNothingOfBefore) {
+  call(kSeek, R"({"t_s": 103})");
+  source.step(0);
+  take();
+  call(1, R"({"topic": "/R1/odometry", "seconds": 1000})");
+  const std::string answer = take().at(0);
+  const Json messages = Json::parse(answer.substr(answer.find('{')))["messages"];
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0]["t_s"], 103);
+}
+
+TEST_F(RunSourceTest, SaysWhereItIsFiveTimesASecond) {
+  call(kSeek, R"({"t_s": 100})");
+  call(kPlay, R"({"playing": true})");
+  source.step(0);
+  take();
+  int said = 0;
+  for (int i = 0; i < 40; ++i) {  // 2 s
+    source.step(0.05);
+    for (const std::string& message : take())
+      said += message == time_message(viewers_time(source.state().t_s)) ? 1 : 0;
+  }
+  EXPECT_GE(said, 8);
+  EXPECT_LE(said, 11);
+}
+
+/// A scan each second, as a log has it.
+struct ScanRun : MadeRun {
+  void advance(double t, RobotViews& views) override {
+    MadeRun::advance(t, views);
+    autonomy::RegisteredScan scan = made_scan(50);
+    scan.stamp = from_seconds(t);
+    for (const scan_t& chunk : to_lcm(scan, static_cast<int>(t))) {
+      std::vector<std::uint8_t> bytes(static_cast<std::size_t>(chunk.getEncodedSize()));
+      chunk.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+      EXPECT_TRUE(views.hear("R1_SCAN", bytes, t));
+    }
+  }
+};
+
+TEST(RunSourceScans, ALogsPointsAreShownToThoseWhoWantThem) {
+  ScanRun run;
+  Hub hub{{.mode = "run", .version = "1", .session = "s", .begin = 0, .end = 1}};
+  RunSource source(run, *made_site(), hub);
+  source.offer();
+  const auto now = Hub::Steady::now();
+  const Hub::SessionId client = hub.open("", false, now);
+  const auto points = static_cast<std::uint64_t>(viewers::Topic::points);
+  std::uint64_t channel = 0;
+  while (const auto next = hub.take(client, now)) {
+    const Json json = Json::parse(*next->body, nullptr, false);
+    if (!json.is_object() || !json.contains("channels")) continue;
+    for (const Json& c : json["channels"]) {
+      if (c["topic"] == viewers::topic_name("R1", static_cast<viewers::Topic>(points)))
+        channel = c["id"];
+    }
+  }
+  ASSERT_NE(channel, 0u);
+  const std::string asked =
+      Json({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", channel}}}}}).dump();
+  EXPECT_TRUE(hub.hear(client, {reinterpret_cast<const std::uint8_t*>(asked.data()), asked.size()},
+                       false, now));
+  std::string seek = service_response(kSeek, 1, R"({"t_s": 105})");
+  seek[0] = 2;
+  EXPECT_TRUE(hub.hear(client, {reinterpret_cast<const std::uint8_t*>(seek.data()), seek.size()},
+                       true, now));
+  source.step(0);
+  bool shown = false;
+  while (const auto next = hub.take(client, now))
+    shown |= next->body->find("point_stride") != std::string::npos;
+  EXPECT_TRUE(shown);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace saker::flight::ground {
 namespace {
 
@@ -119,6 +121,120 @@ TEST(Session, OneThatAsksAndNeverTakesTheAnswersIsStuckAtOnce) {
   Session session("", false, small_limits());
   for (int i = 0; i < 6; ++i) session.answer(std::string(10, 'a'), false, kStart);
   EXPECT_TRUE(session.is_stuck(kStart));
+}
+
+TEST(Session, MessagesGoOutInTheOrderInWhichTheyCame) {
+  Session session("", false);
+  session.subscribe({1, 10});
+  session.subscribe({2, 11});
+  for (const char c : {'a', 'b', 'c', 'd'})
+    session.offer(c % 2 == 0 ? 10 : 11, 0, text(1, c), kStart);
+  EXPECT_EQ(drained(session), "abcd");
+}
+
+TEST(Session, AHeadNamesTheClientsOwnIdAndTheMessagesTime) {
+  Session session("", false);
+  session.subscribe({7, 10});
+  session.offer(10, 123456789, text(1), kStart);
+  EXPECT_EQ(session.take(kStart)->head, message_head(7, 123456789));
+}
+
+TEST(Session, AnAnswersKindIsThatOfItsFrame) {
+  Session session("", false);
+  session.answer("{}", false, kStart);
+  session.answer("\5", true, kStart);
+  EXPECT_FALSE(session.take(kStart)->binary);
+  EXPECT_TRUE(session.take(kStart)->binary);
+}
+
+TEST(Session, AfterADropOthersOfThatChannelMayWaitAgain) {
+  Session session("", false, small_limits());
+  session.subscribe({1, 10});
+  for (const char c : {'a', 'b', 'c'}) session.offer(10, 0, text(1, c), kStart);
+  EXPECT_EQ(*session.take(kStart)->body, "a");
+  session.offer(10, 0, text(1, 'd'), kStart);
+  EXPECT_EQ(session.dropped(), 0);
+  EXPECT_EQ(drained(session), "bcd");
+}
+
+TEST(Session, ALargeMessageTakesThePlaceOfTheOldestOfAllChannels) {
+  Session session("", false, small_limits());  // 100 bytes
+  session.subscribe({1, 10});
+  session.subscribe({2, 11});
+  session.offer(10, 0, text(40, 'a'), kStart);
+  session.offer(11, 0, text(40, 'b'), kStart);
+  session.offer(10, 0, text(50, 'c'), kStart);
+  EXPECT_EQ(session.dropped(), 1);
+  EXPECT_EQ(drained(session), std::string(40, 'b') + std::string(50, 'c'));
+}
+
+TEST(Session, IsFullWithMoreAnswersThanMayWaitAndNotAfterTheyWereTaken) {
+  Session session("", false, small_limits());  // 50 bytes
+  session.answer(std::string(50, 'a'), false, kStart);
+  EXPECT_FALSE(session.is_full());
+  session.answer("b", false, kStart);
+  EXPECT_TRUE(session.is_full());
+  drained(session);
+  EXPECT_FALSE(session.is_full());
+}
+
+TEST(Session, MessagesMakeItNotFull) {
+  Session session("", false, small_limits());
+  session.subscribe({1, 10});
+  session.offer(10, 0, text(90), kStart);
+  EXPECT_FALSE(session.is_full());
+}
+
+TEST(Session, WaitingBeginsAnewWithEveryThingThatIsTaken) {
+  Session session("", false, small_limits());
+  session.subscribe({1, 10});
+  for (int s = 0; s < 100; s += 9) {
+    session.offer(10, 0, text(1), kStart + seconds(s));
+    session.offer(10, 0, text(1), kStart + seconds(s));
+    EXPECT_FALSE(session.is_stuck(kStart + seconds(s)));
+    static_cast<void>(session.take(kStart + seconds(s)));
+  }
+}
+
+TEST(Session, WhatIsUnsubscribedFreesItsBytes) {
+  Session session("", false, small_limits());
+  session.subscribe({1, 10});
+  session.offer(10, 0, text(60), kStart);
+  session.unsubscribe(1);
+  EXPECT_EQ(session.waiting_bytes(), 0u);
+  EXPECT_FALSE(session.has_output());
+  session.subscribe({1, 10});
+  session.offer(10, 0, text(3, 'n'), kStart);
+  EXPECT_EQ(drained(session), "nnn");
+}
+
+/// Whatever is done: the bytes that wait are those of what is then taken, and never over the
+/// ceiling.
+TEST(Session, CountsWhatWaitsRightly) {
+  std::mt19937 random(4);
+  for (int round = 0; round < 50; ++round) {
+    Session session("", false, small_limits());
+    for (int step = 0; step < 60; ++step) {
+      const std::uint32_t id = random() % 4;
+      switch (random() % 5) {
+        case 0:
+          session.subscribe({id, id + 10});
+          break;
+        case 1:
+          session.unsubscribe(id);
+          break;
+        case 2:
+          static_cast<void>(session.take(kStart));
+          break;
+        default:
+          session.offer(id + 10, 0, text(1 + random() % 40), kStart);
+      }
+      EXPECT_LE(session.waiting_bytes(), 100u);
+    }
+    const std::size_t waiting = session.waiting_bytes();
+    EXPECT_EQ(drained(session).size(), waiting);
+    EXPECT_EQ(session.waiting_bytes(), 0u);
+  }
 }
 
 }  // namespace

@@ -203,5 +203,132 @@ TEST(Clouds, OccupancyIsTheNearestCellsAboutTheBody) {
   }
 }
 
+TEST(OwnMessages, TheOdometrysDeviationsAreTheRootsOfItsCovariance) {
+  RobotView view = made_view();
+  view.hear(made_odometry(1, 0, 0), 1);
+  const Json said = *view.message(Topic::odometry, 1);
+  EXPECT_EQ(said["sd_m"], (std::vector<double>{0.2, 0.2, 0.2}));
+  EXPECT_EQ(said["sd_rad"], (std::vector<double>{0.2, 0.2, 0.2}));
+  EXPECT_EQ(said["speed_mps"], 5);  // of 3 and 4
+}
+
+TEST(OwnMessages, ACovarianceThatIsNoneHasNoDeviations) {
+  RobotView view = made_view();
+  odometry_t message = made_odometry(1, 0, 0);
+  message.covariance[7 * 4] = -1;
+  view.hear(message, 1);
+  const Json said = *view.message(Topic::odometry, 1);
+  EXPECT_FALSE(said.contains("sd_m"));
+  EXPECT_TRUE(said.contains("sd_rad"));
+}
+
+TEST(OwnMessages, AShortTrajectoryIsWhole) {
+  RobotView view = made_view();
+  view.hear(made_trajectory(1, 7), 1);
+  const Json message = *view.message(Topic::trajectory, 1);
+  EXPECT_EQ(message["points"].size(), 7u);
+  EXPECT_NEAR(message["step_s"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(message["end_s"].get<double>(), 0.6, 1e-9);
+}
+
+TEST(OwnMessages, ATrajectoryOfNoStatesEndsAtOnce) {
+  RobotView view = made_view();
+  view.hear(made_trajectory(1, 0), 1);
+  const Json message = *view.message(Topic::trajectory, 1);
+  EXPECT_TRUE(message["points"].empty());
+  EXPECT_EQ(message["end_s"], 0);
+}
+
+TEST(OwnMessages, TrajectoriesOfAnyLengthKeepTheirEndsAndTheirCeiling) {
+  for (const int states : {1, 2, 399, 400, 401, 798, 799, 1000}) {
+    RobotView view = made_view();
+    ASSERT_TRUE(view.hear(made_trajectory(1, states), 1)) << states;
+    const Json message = *view.message(Topic::trajectory, 1);
+    EXPECT_LE(message["points"].size(), 400u) << states;
+    EXPECT_EQ(message["points"].front()[0], 0) << states;
+    EXPECT_EQ(message["points"].back()[0], states - 1) << states;
+    EXPECT_EQ(message["points"].size(), message["yaw_rad"].size()) << states;
+  }
+}
+
+TEST(OwnMessages, WithoutAPriorMapEveryTargetClassWaits) {
+  RobotView view = made_view();
+  view.hear(made_objects({made_vehicle(3, 0, 0), made_pole(4, 5, 5)}), 1);
+  const Json objects = (*view.message(Topic::objects, 1))["objects"];
+  EXPECT_EQ(objects[0]["target"]["state"], "waiting");
+  EXPECT_FALSE(objects[0]["target"].contains("id"));
+  EXPECT_FALSE(objects[1].contains("target"));  // poles are no targets
+}
+
+TEST(OwnMessages, TheWholeMapsNumberIsTheRobotsOwn) {
+  RobotView view = made_view();
+  object_map_t message = made_objects({made_vehicle(3, 0, 0)});
+  message.total = 34;
+  view.hear(message, 1);
+  EXPECT_EQ((*view.message(Topic::objects, 1))["total"], 34);
+}
+
+TEST(OwnMessages, APoleHasItsRootAxisAndRadius) {
+  RobotView view = made_view();
+  view.hear(made_objects({made_pole(5, 1, 2)}), 1);
+  const Json pole = (*view.message(Topic::objects, 1))["objects"][0];
+  EXPECT_EQ(pole["shape"], "cylinder");
+  EXPECT_EQ(pole["root"], (std::vector<double>{1, 2, 0}));
+  EXPECT_NEAR(pole["radius"].get<double>(), 0.1, 1e-6);
+  EXPECT_NEAR(pole["axis"][2].get<double>(), 1, 1e-6);
+  EXPECT_FALSE(pole.contains("size"));
+  EXPECT_FALSE(pole.contains("sd"));
+}
+
+TEST(Clouds, FarBeamsAreNoPoints) {
+  auto scan = made_scan(3);
+  auto points = std::make_shared<std::vector<Eigen::Vector3f>>(*scan.points);
+  (*points)[0] = {200, 0, 0};
+  (*points)[1] = {NAN, 0, 0};
+  scan.points = points;
+  RobotView view = made_view();
+  view.hear(scan, 1);
+  EXPECT_EQ(points_of(*view.message(Topic::points, 1)).size(), 1u);
+}
+
+TEST(Clouds, ReflectivityIsAByteOfItsShare) {
+  auto scan = made_scan(1);
+  scan.reflectivity = std::make_shared<std::vector<float>>(1, 7.0f);  // more than all
+  RobotView view = made_view();
+  view.hear(scan, 1);
+  const Json cloud = *view.message(Topic::points, 1);
+  EXPECT_EQ(cloud["point_stride"], 13);
+  const std::string data = cloud["data"];
+  EXPECT_EQ(data.substr(data.size() - 4), "/w==");  // ff
+}
+
+TEST(Clouds, WithoutReflectivityPointsAreTwelveBytes) {
+  auto scan = made_scan(4);
+  scan.reflectivity = nullptr;
+  RobotView view = made_view();
+  view.hear(scan, 1);
+  const Json cloud = *view.message(Topic::points, 1);
+  EXPECT_EQ(cloud["point_stride"], 12);
+  EXPECT_EQ(cloud["fields"].size(), 3u);
+  EXPECT_EQ(cloud["data"].get<std::string>().size(), 64u);  // 48 bytes
+}
+
+TEST(Clouds, AnEmptyScanIsAnEmptyCloud) {
+  RobotView view = made_view();
+  view.hear(made_scan(0), 1);
+  EXPECT_EQ((*view.message(Topic::points, 1))["data"], "");
+}
+
+TEST(Clouds, CellsFartherThanTheRadiusAreLeftOut) {
+  RobotView view = made_view();
+  occupancy::OccupancyGrid grid{
+      .resolution_m = 1, .origin = {0, 0, 0}, .size = {40, 1, 1}, .cells = {}};
+  grid.cells.assign(40, occupancy::Cell::occupied);
+  view.hear(grid, 1);  // without odometry: about the block's middle, 20 m
+  const auto cells = points_of(*occupied_cells(view.state(), 1, 2, 100));
+  ASSERT_EQ(cells.size(), 4u);
+  for (const Eigen::Vector3f& cell : cells) EXPECT_LT(std::abs(cell.x() - 20), 2);
+}
+
 }  // namespace
 }  // namespace saker::flight::viewers

@@ -153,3 +153,103 @@ test("frames have the protocol's bytes", () => {
   view.setBigUint64(5, 5n, true);
   assert.deepEqual([readMessage(view).subscription, readMessage(view).time_ns, readMessage(view).payload.length], [7, 5n, 1]);
 });
+
+test("an answer that cannot be read ends its call, and is counted", async t => {
+  const {socket, connection} = opened(t);
+  t.mock.method(console, "warn", () => {});
+  socket.text({op: "advertiseServices", services: [{id: 5, name: "order"}]});
+  const call = connection.call("order", {});
+  const frame = writeCall(5, new DataView(socket.sent.at(-1).buffer).getUint32(5, true), {});
+  frame[0] = 3;
+  frame[frame.length - 1] = 0x7b;  // "{{"
+  socket.onmessage({data: frame.buffer});
+  await assert.rejects(call, /cannot be read/);
+  assert.equal(connection.unreadable, 1);
+});
+
+test("an answer whose lengths are beyond it is garbage", t => {
+  const {socket, connection} = opened(t);
+  t.mock.method(console, "warn", () => {});
+  const frame = writeCall(5, 1, {});
+  frame[0] = 3;
+  new DataView(frame.buffer).setUint32(9, 0xffffffff, true);
+  socket.onmessage({data: frame.buffer});
+  assert.equal(connection.unreadable, 1);
+});
+
+test("an answer that nobody waits for is none", t => {
+  const {socket, connection} = opened(t);
+  socket.answer(99, {});
+  assert.equal(connection.unreadable, 0);
+});
+
+test("a channel that is taken back says nothing more and may come again", t => {
+  const {socket, messages} = opened(t);
+  socket.text({op: "unadvertise", channelIds: [9]});
+  socket.message(1, {});
+  assert.equal(messages.length, 0);
+  socket.text({op: "advertise", channels: [CHANNELS[0]]});
+  assert.equal(JSON.parse(socket.sent.at(-1)).subscriptions[0].channelId, 9);
+});
+
+test("a channel that is advertised twice is subscribed to once", t => {
+  const {socket} = opened(t);
+  const before = socket.sent.length;
+  socket.text({op: "advertise", channels: CHANNELS});
+  assert.equal(socket.sent.length, before);
+});
+
+test("a service that is taken back cannot be called", async t => {
+  const {socket, connection} = opened(t);
+  socket.text({op: "advertiseServices", services: [{id: 5, name: "order"}]});
+  socket.text({op: "unadvertiseServices", serviceIds: [5]});
+  await assert.rejects(connection.call("order", {}), /no service order/);
+});
+
+test("an order is not sent by a link that hangs", async t => {
+  const {socket, connection, pass} = opened(t);
+  socket.text({op: "advertiseServices", services: [{id: 5, name: "order"}]});
+  socket.message(1, {});
+  pass(2000);
+  const before = socket.sent.length;
+  await assert.rejects(connection.call("order", {}), /link is lost/);
+  assert.equal(socket.sent.length, before);
+});
+
+test("a link that was silent is open with the next word", t => {
+  const {socket, states, pass} = opened(t);
+  socket.message(1, {});
+  pass(2000);
+  assert.equal(states.at(-1), "silent");
+  socket.message(1, {});
+  assert.equal(states.at(-1), "open");
+});
+
+test("what an old socket still says is not heard", t => {
+  const {socket, messages, pass} = opened(t);
+  socket.onclose();
+  pass(500);
+  socket.message(1, {});
+  assert.equal(messages.length, 0);
+});
+
+test("it tries again at least once a second, without end", t => {
+  const {socket, pass} = opened(t);
+  socket.onclose();
+  const tries = Socket.made.length;
+  for (let i = 0; i < 20; ++i) {
+    pass(1000);
+    if (Socket.made.at(-1).onclose && !Socket.made.at(-1).closed) Socket.made.at(-1).onclose();
+  }
+  assert.ok(Socket.made.length - tries >= 10 && Socket.made.length - tries <= 21, `${Socket.made.length - tries}`);
+});
+
+test("one that is closed opens no more", t => {
+  const {connection, socket, pass} = opened(t);
+  connection.close();
+  assert.ok(socket.closed);
+  socket.onclose();
+  const before = Socket.made.length;
+  pass(5000);
+  assert.equal(Socket.made.length, before);
+});

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import {ellipse95, footprint, pointsOf, roundLength, toGeodetic, whiskers95} from "../../flight/ground/page/geometry.js";
+import {ellipse95, footprint, pointsOf, roundLength, toGeodetic, whiskers95, yawOf} from "../../flight/ground/page/geometry.js";
 import {mergeMaps} from "../../flight/ground/page/merge.js";
 
 const near = (a, b, within = 1e-9) => assert.ok(Math.abs(a - b) <= within, `${a} is not ${b}`);
@@ -79,4 +79,43 @@ test("another class, another place and one robot's two objects stay apart", () =
 test("robots' frames are moved into one before they are compared", () => {
   const merged = mergeMaps([{robot: "R1", objects: [car(1, 0, 0.2)], toMap: same}, {robot: "R2", objects: [car(1, 50, 0.1)], toMap: ([x, y, z]) => [x - 50, y, z]}]);
   assert.equal(merged.length, 1);
+});
+
+test("the surer estimate stays with its own place", () => {
+  const [{place, object}] = mergeMaps([{robot: "R1", objects: [car(1, 0, 0.2)], toMap: same}, {robot: "R2", objects: [car(2, 1, 0.1)], toMap: same}]);
+  assert.equal(object.id, 2);
+  assert.deepEqual(place, [1, 0, 0]);
+});
+
+test("a third robot finds the object where its surer estimate is", () => {
+  const robot = (name, x, sd) => ({robot: name, objects: [car(1, x, sd)], toMap: same});
+  const merged = mergeMaps([robot("R1", 1.4, 0.3), robot("R2", 2.8, 0.2), robot("R3", 4.2, 0.1)]);
+  assert.deepEqual(merged.map(({robots}) => robots), [["R1", "R2", "R3"]]);
+});
+
+test("an estimate without a deviation is the least sure one", () => {
+  const unsure = {...car(1, 0, 0), sd: undefined};
+  const merged = mergeMaps([{robot: "R1", objects: [unsure], toMap: same}, {robot: "R2", objects: [car(2, 0.2, 0.5)], toMap: same}]);
+  assert.equal(merged[0].robot, "R2");
+});
+
+test("a quarter's yaw is read from its quaternion", () => {
+  near(yawOf([0, 0, Math.SQRT1_2, Math.SQRT1_2]), Math.PI / 2);
+  near(yawOf([0, 0, 0, 1]), 0);
+  near(yawOf([0, 0, Math.sin(-0.3), Math.cos(-0.3)]), -0.6);
+});
+
+test("a cloud that is cut has its whole points alone", () => {
+  const cloud = {data: Buffer.alloc(30).toString("base64"), point_stride: 12, fields: [{name: "x", offset: 0}, {name: "y", offset: 4}, {name: "z", offset: 8}]};
+  assert.equal(pointsOf(cloud).length, 6);
+});
+
+test("whiskers never go through the middle", () => {
+  for (const [, , inner] of whiskers95([1, 1], [9, 9])) assert.equal(inner, 0);
+});
+
+test("the axes of an ellipse are a right angle, the longer one first", () => {
+  const {a, b, angle} = ellipse95([0.01, 0, 0.04]);
+  assert.ok(a > b);
+  near(Math.abs(angle), Math.PI / 2);
 });

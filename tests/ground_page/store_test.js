@@ -70,3 +70,82 @@ test("changes are taken once, ages are our clock's", () => {
   assert.equal(store.age_s("R1", "mission"), null);
   assert.deepEqual(store.robots.get("R1").battery.samples, [[0, 50]]);
 });
+
+test("going back in a run forgets what was not yet", () => {
+  const store = new Store(), car3 = car(3, 4);
+  store.take("/playback", {t_s: 110}, 110);
+  for (const [kind, message] of Object.entries({mission: {phase: "done"}, verdict: {clear: true}, objects: {objects: [car3]}, site: {prior: {objects: [car(9, 4)]}}, state: {battery_share: 0.5}})) store.take(`/R1/${kind}`, message, 110);
+  store.takeChanges();
+  store.take("/playback", {t_s: 101}, 101);
+  const robot = store.robots.get("R1");
+  assert.deepEqual(Object.keys(robot.newest), ["site"]);
+  assert.equal(robot.objects.size, 0);
+  assert.deepEqual(robot.battery.samples, []);
+  assert.deepEqual([...store.takeChanges()].sort(), ["/R1/mission", "/R1/objects", "/R1/state", "/R1/verdict", "/playback"]);
+});
+
+test("going back keeps what was said of then, whichever came first", () => {
+  const store = new Store();
+  store.take("/playback", {t_s: 110}, 110);
+  store.take("/R1/verdict", {clear: true}, 100);
+  store.take("/R1/odometry", {status: "ok"}, 101);
+  store.take("/playback", {t_s: 101}, 101);
+  assert.deepEqual(Object.keys(store.robots.get("R1").newest).sort(), ["odometry", "verdict"]);
+});
+
+test("going on in a run forgets nothing", () => {
+  const store = new Store();
+  store.take("/playback", {t_s: 101}, 101);
+  store.take("/R1/mission", {phase: "tour"}, 101);
+  store.take("/playback", {t_s: 110}, 110);
+  store.take("/playback", {t_s: 110}, 110);
+  assert.equal(store.robots.get("R1").newest.mission.phase, "tour");
+});
+
+/// The answer of `seek` is there before the message: the panel writes it into the store.
+test("going back is noticed though the service's answer came first", () => {
+  const store = new Store();
+  store.take("/playback", {t_s: 110}, 110);
+  store.take("/R1/mission", {phase: "done"}, 110);
+  store.playback = {t_s: 101};
+  store.take("/playback", {t_s: 101}, 101);
+  assert.equal(store.robots.get("R1").newest.mission, undefined);
+});
+
+test("what was said before comes again after going back, once", () => {
+  const store = new Store();
+  store.take("/playback", {t_s: 110}, 110);
+  for (const t of [101, 101.2]) store.take("/R1/log", {message: `at ${t}`}, t);
+  store.take("/playback", {t_s: 101.3}, 101.3);
+  for (const t of [101, 101.2]) store.take("/R1/log", {message: `at ${t}`}, t);
+  assert.deepEqual(store.robots.get("R1").log.map(({message}) => message), ["at 101", "at 101.2"]);
+});
+
+test("a log has an end", () => {
+  const store = new Store();
+  for (let t = 0; t < 250; ++t) store.take("/R1/log", {message: String(t)}, t);
+  const {log} = store.robots.get("R1");
+  assert.equal(log.length, 200);
+  assert.equal(log.at(-1).message, "249");
+});
+
+test("an order is one, whatever is said of it", () => {
+  const store = new Store();
+  for (const state of ["sent", "acknowledged"]) store.take("/R1/orders", {id: 4, state}, 0);
+  assert.deepEqual([...store.robots.get("R1").orders.values()].map(({state}) => state), ["acknowledged"]);
+});
+
+test("a topic of no robot makes none", () => {
+  const store = new Store();
+  store.take("/playback", {t_s: 1}, 1);
+  assert.equal(store.know("/status"), null);
+  assert.deepEqual(store.names(), []);
+});
+
+test("what is not known of the vehicle is a gap, no zero", () => {
+  const store = new Store();
+  store.take("/R1/state", {}, 1);
+  store.take("/R1/link", {}, 1);
+  const {battery, height, link} = store.robots.get("R1");
+  assert.deepEqual([battery, height, link].map(({samples}) => samples), [[[1, null]], [[1, null]], [[1, null]]]);
+});

@@ -80,3 +80,47 @@ test("a range has at least the width that is asked for", () => {
   assert.deepEqual(range([1, null, 1.1], 0.5).map(v => Number(v.toFixed(3))), [0.8, 1.3]);
   assert.equal(range([null, undefined]), null);
 });
+
+/// A reader of RFC 4180, of this test alone.
+function fieldsOf(line) {
+  return [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].slice(0, -1).map(([, field]) => (field.startsWith('"') ? field.slice(1, -1).replaceAll('""', '"') : field));
+}
+
+test("CSV keeps commas, quotes and carriage returns of words apart", () => {
+  const row = rowOf("R1", {...CAR, class: 'van, "big"', target: {id: 1, state: "unreachable", reason: "no way,\rsaid R1"}});
+  const fields = fieldsOf(toCsv([row]).slice(toCsv([]).length).replace(/\n$/, ""));
+  assert.equal(fields.length, fieldsOf(toCsv([]).trim()).length);
+  assert.equal(fields[2], 'van, "big"');
+  assert.equal(fields.at(-1), "unreachable: no way,\rsaid R1");
+});
+
+test("CSV leaves what is not known empty", () => {
+  const [head, row] = toCsv([rowOf("R1", {...TRUNK, sd: undefined})]).split("\n").map(line => line.split(","));
+  assert.equal(row[head.indexOf("length_sd_m")], "");
+  assert.equal(row[head.indexOf("probability")], "");
+  assert.equal(row[head.indexOf("heading_rad")], "");
+});
+
+test("GeoJSON's ring is the footprint, counter-clockwise as RFC 7946 wants it", () => {
+  const {features} = JSON.parse(toGeoJson([ROWS[0]], () => ({latitude_deg: 0, longitude_deg: 0, heading_deg: 90})));
+  const [ring] = features[0].geometry.coordinates;
+  const area = ring.slice(1).reduce((sum, [x, y], i) => sum + ring[i][0] * y - x * ring[i][1], 0) / 2;
+  assert.ok(area > 0);
+  assert.ok(Math.abs(area * 111_319 * 110_574 - 4.5 * 1.9) < 0.01, `${area}`);  // m a degree at the equator
+});
+
+test("GeoJSON of robots of which one has no origin is none", () => {
+  assert.equal(toGeoJson([ROWS[0], rowOf("R2", CAR)], robot => (robot === "R1" ? {latitude_deg: 0, longitude_deg: 0, heading_deg: 0} : null)), null);
+});
+
+test("rows of one value keep the order of their ids, both ways", () => {
+  const rows = [5, 2, 9].map(id => rowOf("R1", {...CAR, id}));
+  assert.deepEqual(ids(sortedRows(rows, "length", false)), [2, 5, 9]);
+  assert.deepEqual(ids(sortedRows(rows, "length", true)), [2, 5, 9]);
+});
+
+test("sorting changes nothing of what it was given", () => {
+  const before = ids(ROWS);
+  sortedRows(ROWS, "length", false);
+  assert.deepEqual(ids(ROWS), before);
+});

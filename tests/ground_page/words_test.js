@@ -71,3 +71,35 @@ test("figures of a run get the unit of their name", () => {
   assert.deepEqual(figureWords("size_nees", 0.84).map(plain), ["size nees", "0.840 (ratio)"]);
   assert.equal(figureWords("errors", [1]), null);
 });
+
+test("a target that is done or out of the tour says so, and an unknown state itself", () => {
+  assert.equal(targetWords({state: "done", reason: "seen"}), "done: seen");
+  assert.equal(targetWords({state: "planned"}), "in the tour");
+  assert.equal(targetWords({state: "asleep"}), "asleep");
+});
+
+test("a verdict without time left says its reason alone", () => {
+  assert.equal(verdictWords({clear: false, reason: "stale_scan", clear_for_s: 0}), "the newest scan is too old");
+});
+
+test("an unknown phase and an unknown fault are said as they came", () => {
+  const {title, because} = situation(robot({mission: {phase: "dance"}, state: {faults: ["tired"]}}));
+  assert.equal(title, "dance");
+  assert.equal(because, "tired");
+});
+
+test("figures are yes or no, words, counts and shares", () => {
+  assert.deepEqual(figureWords("home_reached", true), ["home reached", "yes"]);
+  assert.deepEqual(figureWords("scenario", "demo"), ["scenario", "demo"]);
+  assert.deepEqual(figureWords("found_share", 0.875).map(plain), ["found", "88 %"]);
+  assert.deepEqual(figureWords("flight_time_s", 61.25).map(plain), ["flight time", "61.3 s"]);
+});
+
+test("an hour is an hour, never sixty minutes", () => {
+  assert.equal(plain(duration(3599.6)), "1 h 00 min");
+  assert.equal(plain(duration(0)), "0.0 s");
+});
+
+test("never is said of nothing", () => {
+  assert.deepEqual([times(0), times(undefined)], ["never", "never"]);
+});

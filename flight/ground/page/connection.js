@@ -159,7 +159,14 @@ export class Connection {
       if (channel) this.onMessage(channel.topic, JSON.parse(text.decode(payload)), Number(time_ns) / 1e9);
     } else if (opcode === SERVICE_RESPONSE) {
       const answer = readAnswer(view);
-      this.#settle(answer.call, ({done}) => done(JSON.parse(text.decode(answer.payload))));
+      this.#settle(answer.call, ({done, fail}) => {
+        try {
+          done(JSON.parse(text.decode(answer.payload)));
+        } catch (error) {
+          fail(new Error("the answer cannot be read"));
+          throw error;
+        }
+      });
     } else if (opcode === 0 || opcode > LAST) throw new Error(`opcode ${opcode}`);
   }
 

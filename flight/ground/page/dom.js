@@ -20,11 +20,11 @@ export function show(node, shown) {
   if (node.hidden === shown) node.hidden = !shown;
 }
 
-/// Makes the children of `parent` those of `keys` in order; makes and updates each by its key, and keeps what is there.
+/// Makes the children of `parent` those of `keys` in order; makes and updates each by its key, and keeps what is there. A key counts once.
 export function keyed(parent, keys, make, update) {
   const there = new Map([...parent.children].map(child => [child.dataset.key, child]));
   let at = null;
-  for (const key of keys) {
+  for (const key of new Set(keys)) {
     let node = there.get(String(key));
     if (node) there.delete(String(key));
     else {

@@ -4,14 +4,14 @@ import {footprint, toGeodetic} from "./geometry.js";
 import {placeOf} from "./store.js";
 
 const number = value => (value === null || value === undefined ? "" : String(value));
-const quoted = text => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+const quoted = text => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
 export const toJson = rows => JSON.stringify({objects: rows.map(({robot, object}) => ({robot, ...object}))}, null, 1);
 
 const FIELDS = {
   robot: ({robot}) => robot,
   id: ({id}) => number(id),
-  class: row => row.class,
+  class: row => quoted(row.class),
   probability: ({probability}) => number(probability),
   observations: ({observations}) => number(observations),
   x_m: ({object}) => number(placeOf(object)[0]),

@@ -14,7 +14,8 @@ export function listen(actions) {
     if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
     const order = event.shiftKey && KINDS.find(({key}) => key === event.key.toUpperCase());
     const layer = !event.shiftKey && LAYERS.find(({key}) => key === event.key);
-    if (order) actions.order(order.kind);
+    if (order && event.repeat) event.preventDefault();  // a key that is held is no second press
+    else if (order) actions.order(order.kind);
     else if (layer) actions.layer(layer.name);
     else if (/^[1-9]$/.test(event.key)) actions.robot(Number(event.key) - 1);
     else if (event.key === " " && event.target.matches?.("button, summary")) return;

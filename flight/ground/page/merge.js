@@ -9,6 +9,10 @@ const SAME_WITHIN_M = 1.5;  // as `saker map eval` compares two maps
 export function mergeMaps(maps) {
   const merged = [], cells = new Map();
   const cellOf = (x, y) => `${Math.floor(x / SAME_WITHIN_M)},${Math.floor(y / SAME_WITHIN_M)}`;
+  const note = entry => {
+    const cell = cellOf(entry.place[0], entry.place[1]);
+    cells.set(cell, [...(cells.get(cell) ?? []), entry]);
+  };
   const about = ([x, y]) => [-1, 0, 1].flatMap(i => [-1, 0, 1].flatMap(j => cells.get(cellOf(x + i * SAME_WITHIN_M, y + j * SAME_WITHIN_M)) ?? []));
   for (const {robot, objects, toMap} of maps) {
     const before = merged.length;  // two objects of one robot are two
@@ -18,11 +22,10 @@ export function mergeMaps(maps) {
       const same = nearest(about(place).filter(other => other.index < before && !other.robots.includes(robot) && other.object.class === object.class), place);
       if (!same) {
         entry.index = merged.push(entry) - 1;
-        const cell = cellOf(place[0], place[1]);
-        cells.set(cell, [...(cells.get(cell) ?? []), entry]);
+        note(entry);
       } else {
         same.robots.push(robot);
-        if (entry.sd < same.sd) Object.assign(same, {robot, object, sd: entry.sd});
+        if (entry.sd < same.sd) note(Object.assign(same, {robot, object, place, sd: entry.sd}));
       }
     }
   }

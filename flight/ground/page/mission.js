@@ -104,10 +104,10 @@ export class Mission {
   }
 }
 
+// By place, for two figures may have one name: "error, m" and "error, rad".
 function facts(node, rows) {
-  keyed(node, rows.flatMap(([what]) => [`${what}?`, what]), key => el(key.endsWith("?") ? "span" : "b", {}), (child, key) => {
-    say(child, key.endsWith("?") ? key.slice(0, -1) : String(rows.find(([what]) => what === key)[1]));
-  });
+  const parts = rows.flat();
+  keyed(node, parts.map((_, i) => i), i => el(i % 2 === 0 ? "span" : "b", {}), (child, i) => say(child, String(parts[i])));
 }
 
 function lines(node, rows) {

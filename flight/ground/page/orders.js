@@ -42,10 +42,11 @@ export class SecondClick {
 export class Orders {
   /// `send(robot, kind)` gives a promise of {state, text, took_s}; `may()` says "" or why no order can be given.
   constructor(parent, {choices, send, may}) {
-    Object.assign(this, {choices, send, may, clicks: new SecondClick(() => performance.now())});
+    Object.assign(this, {choices, send, may, clicks: new SecondClick(() => performance.now()), waiting: new Set()});
     this.buttons = KINDS.map(({kind, name, key, does}) => el("button", {class: "order", "data-kind": kind, title: `${does} (Shift+${key}, twice)`, onclick: () => this.press(kind)}, name));
     this.said = el("p", {class: "said", role: "status", "aria-live": "assertive"});
-    parent.append(el("div", {class: "buttons", role: "group", "aria-label": "Orders"}, this.buttons), this.said);
+    const once = event => event.repeat && event.preventDefault();  // a key that is held is no second click
+    parent.append(el("div", {class: "buttons", role: "group", "aria-label": "Orders", onkeydown: once}, this.buttons), this.said);
     choices.on(what => what.robot !== undefined && this.clicks.forget());
   }
 
@@ -54,9 +55,9 @@ export class Orders {
     const not = robot ? this.may() : "no robot is chosen";
     if (not) return this.#say("bad", not);
     if (this.clicks.click(robot, kind) === "ask") return this.#say("ask", `${name} ${robot}? It ${does}. Press again to send.`);
-    const begun = performance.now();
+    const begun = performance.now(), sent = {robot, kind};
+    this.waiting.add(sent);
     this.#say("sent", `${kind} sent to ${robot}: waiting for its acknowledgement`);
-    this.waiting = {robot, kind, begun};
     try {
       const {state, text, took_s} = await this.send(robot, kind);
       const words = {acknowledged: `${kind} acknowledged by ${robot} after ${duration(took_s ?? (performance.now() - begun) / 1000)}`, refused: `${kind} refused by ${robot}: ${text}`,
@@ -65,7 +66,7 @@ export class Orders {
     } catch (error) {
       this.#say("bad", `${kind} to ${robot} failed: ${error.message}`);
     } finally {
-      this.waiting = null;
+      this.waiting.delete(sent);
       this.update();
     }
     return undefined;
@@ -81,7 +82,7 @@ export class Orders {
     const robot = this.choices.robot, not = robot ? this.may() : "no robot is chosen";
     this.buttons.forEach((button, i) => {
       const {kind, name} = KINDS[i], asked = robot && this.clicks.isAsked(robot, kind);
-      button.disabled = Boolean(not) || this.waiting?.kind === kind;
+      button.disabled = Boolean(not) || [...this.waiting].some(sent => sent.robot === robot && sent.kind === kind);
       button.classList.toggle("asked", Boolean(asked));
       say(button, asked ? `${name}: again (${Math.ceil(this.clicks.left_s())} s)` : name);
     });

@@ -5,6 +5,8 @@
 
 export const KEPT = 240;           // samples of a plot
 const BACK_S = 0.5;                // a message so much older than the last one: somebody went back in a run
+const SAME_S = 1e-3;               // of two clocks' last digits
+const WHOLE_RUN = new Set(["site", "tf", "figures"]);
 const LEAST_CHANGE_M = 0.0005;     // of a size, that its history notes
 
 /// A ring of the newest samples, oldest first.
@@ -19,6 +21,10 @@ export class Series {
     if (last && t_s < last[0] - BACK_S) this.samples = this.samples.filter(([t]) => t < t_s);
     this.samples.push([t_s, ...values]);
     if (this.samples.length > this.most) this.samples.shift();
+  }
+
+  cut(t_s) {
+    this.samples = this.samples.filter(([t]) => t <= t_s);
   }
 
   /// Samples that came in another way, older than ours, put before them.
@@ -43,6 +49,7 @@ export class Robot {
     this.name = name;
     this.newest = {};           // message by the topic's last word
     this.heard_ms = {};         // when it came, by our clock
+    this.said_s = {};           // its own time
     this.objects = new Map();   // by id
     this.targets = new Map();   // objects by the id of the target that the tour means
     this.sizes = new Map();     // Series by id
@@ -58,6 +65,7 @@ export class Robot {
   take(kind, message, t_s, now_ms) {
     this.newest[kind] = message;
     this.heard_ms[kind] = now_ms;
+    this.said_s[kind] = t_s;
     const taker = `take_${kind}`;
     if (taker in this) this[taker](message, t_s);
   }
@@ -100,12 +108,24 @@ export class Robot {
 
   take_log(entry, t_s) {
     if (this.log.length && t_s < this.log.at(-1).t_s - BACK_S) this.log = this.log.filter(other => other.t_s < t_s);
+    if (this.log.some(other => other.t_s === t_s && other.message === entry.message)) return;  // said again after a jump
     this.log.push({...entry, t_s});
     if (this.log.length > 200) this.log.shift();
   }
 
   take_orders(order) {
     this.orders.set(order.id, order);
+  }
+
+  /// What came after `t_s`, when somebody goes back in a run: the kinds that are not known any more. What holds for the whole run stays.
+  forgetAfter(t_s) {
+    const gone = Object.keys(this.newest).filter(kind => !WHOLE_RUN.has(kind) && this.said_s[kind] > t_s + SAME_S);
+    for (const kind of gone) delete this.newest[kind];
+    if (gone.includes("objects")) for (const map of [this.objects, this.targets]) map.clear();
+    if (gone.includes("health")) this.processes.clear();
+    for (const series of [this.battery, this.height, this.link, ...this.sizes.values(), ...this.loops.values()]) series.cut(t_s + SAME_S);
+    this.log = this.log.filter(entry => entry.t_s <= t_s + SAME_S);
+    return gone;
   }
 
   /// Sizes of one object over time, from whole maps of the past: [{t_s, message}].
@@ -124,6 +144,7 @@ export class Store {
     this.robots = new Map();
     this.changed = new Set();  // topics
     this.playback = null;      // of a finished run
+    this.played_s = -Infinity; // its time when it was said last
     this.time_s = null;        // of the newest message
   }
 
@@ -146,8 +167,17 @@ export class Store {
   take(topic, message, time_s) {
     this.changed.add(topic);
     this.time_s = time_s;
-    if (topic === "/playback") this.playback = message;
+    if (topic === "/playback") this.#play(message);
     else this.know(topic)?.take(topic.split("/")[2], message, time_s, this.now());
+  }
+
+  // The answer of `seek` comes before this message: what is compared is what came this way.
+  #play(playback) {
+    if (playback.t_s < this.played_s) {
+      for (const robot of this.robots.values()) for (const kind of robot.forgetAfter(playback.t_s)) this.changed.add(`/${robot.name}/${kind}`);
+    }
+    this.playback = playback;
+    this.played_s = playback.t_s;
   }
 
   /// Seconds since a robot's newest message of that kind; null: none yet.

@@ -10,7 +10,8 @@ export class Timeline {
   constructor(parent, {store, call}) {
     Object.assign(this, {parent, store, call, speed: 1});
     this.button = el("button", {class: "play", onclick: () => this.toggle()}, "Play");
-    this.slider = el("input", {type: "range", min: 0, max: 1, step: 0.1, "aria-label": "Time of the run, s", oninput: () => this.#drag(), onchange: () => this.#drop()});
+    this.slider = el("input", {type: "range", min: 0, max: 1, step: 0.1, "aria-label": "Time of the run, s", oninput: () => this.#drag(), onchange: () => this.#drop(),
+      onpointerup: () => this.#drop(), onpointercancel: () => this.#drop(), onblur: () => this.#drop()});  // back where it was there is no change
     this.speeds = el("select", {"aria-label": "Speed", onchange: () => this.setSpeed(Number(this.speeds.value))}, SPEEDS.map(speed => el("option", {value: speed}, `${speed}\u00a0×`)));
     this.text = el("output", {});
     parent.append(this.button, this.slider, this.text, this.speeds);
@@ -73,7 +74,9 @@ export class Timeline {
   }
 
   async #drop() {
+    if (!this.dragging || this.dropping) return;
+    this.dropping = true;
     await this.#ask("seek", {t_s: Number(this.slider.value)});
-    this.dragging = false;
+    this.dragging = this.dropping = false;
   }
 }
