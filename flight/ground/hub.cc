@@ -244,26 +244,30 @@ void Hub::serve_history(const Json& request, const Reply& reply) const {
   if (topic == request.end() || !topic->is_string() || seconds == request.end() ||
       !seconds->is_number())
     return reply({false, R"(expected {"topic": "/R1/objects", "seconds": 60})"});
-  std::string list;
-  {
-    const std::lock_guard lock(mutex_);
-    const ChannelState* found = nullptr;
-    for (const auto& [id, state] : channels_) {
-      if (state.channel.topic == *topic) found = &state;
-    }
-    if (found == nullptr) return reply({false, "no such topic: " + topic->get<std::string>()});
-    const double span_ns = std::min(std::max(seconds->get<double>(), 0.0), 1e9) * 1e9;
-    const Time newest = found->messages.empty() ? 0 : found->messages.back().time;
-    const std::size_t count = found->messages.size();
-    for (std::size_t i = count > kMostHistory ? count - kMostHistory : 0; i < count; ++i) {
-      const Kept& kept = found->messages[i];
-      if (static_cast<double>(newest - kept.time) > span_ns) continue;
-      if (!list.empty()) list += ',';
-      list +=
-          R"({"t_s":)" + Json(to_seconds(kept.time)).dump() + R"(,"message":)" + *kept.json + '}';
-    }
+  const auto list = history(topic->get<std::string>(), seconds->get<double>());
+  if (!list) return reply({false, "no such topic: " + topic->get<std::string>()});
+  reply({true, R"({"topic":)" + topic->dump() + R"(,"messages":[)" + *list + "]}"});
+}
+
+/// A reply locks: it is given by who asked, when this has ended.
+std::optional<std::string> Hub::history(const std::string& topic, double seconds) const {
+  const std::lock_guard lock(mutex_);
+  const ChannelState* found = nullptr;
+  for (const auto& [id, state] : channels_) {
+    if (state.channel.topic == topic) found = &state;
   }
-  reply({true, R"({"topic":)" + topic->dump() + R"(,"messages":[)" + list + "]}"});
+  if (found == nullptr) return std::nullopt;
+  std::string list;
+  const double span_ns = std::min(std::max(seconds, 0.0), 1e9) * 1e9;
+  const Time newest = found->messages.empty() ? 0 : found->messages.back().time;
+  const std::size_t count = found->messages.size();
+  for (std::size_t i = count > kMostHistory ? count - kMostHistory : 0; i < count; ++i) {
+    const Kept& kept = found->messages[i];
+    if (static_cast<double>(newest - kept.time) > span_ns) continue;
+    if (!list.empty()) list += ',';
+    list += R"({"t_s":)" + Json(to_seconds(kept.time)).dump() + R"(,"message":)" + *kept.json + '}';
+  }
+  return list;
 }
 
 std::optional<Session::Outgoing> Hub::take(SessionId session, Steady::time_point now) {

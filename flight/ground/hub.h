@@ -106,6 +106,8 @@ class Hub {
   void call(SessionId id, const ServiceCall& message);
   void reply(SessionId id, const ServiceCall& message, const Answer& answer);
   void serve_history(const Json& request, const Reply& reply) const;
+  /// The kept messages of the last seconds, as the elements of a list; nothing: no such topic.
+  [[nodiscard]] std::optional<std::string> history(const std::string& topic, double seconds) const;
   void wake() const;
 
   ServerInfo info_;

@@ -84,7 +84,8 @@ Json site_message(const RobotState& state, const Site& site) {
   Site plain = site;
   plain.prior.objects.clear();
   Json objects = Json::array();
-  for (Json& object : (*objects_message(prior, plain, 0))["objects"]) {
+  Json message = objects_message(prior, plain, 0).value();
+  for (Json& object : message["objects"]) {
     object.erase("target");
     objects.push_back(std::move(object));
   }

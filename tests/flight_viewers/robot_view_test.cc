@@ -241,7 +241,8 @@ TEST(RobotView, APlanOfAChoiceThatIsNotThereChoosesNothing) {
     view.hear(plan, 1);
     EXPECT_EQ(state_of(view, 4), "planned") << choice;
     EXPECT_EQ(view.state().gain_nat, 0) << choice;
-    for (const Json& candidate : (*view.message(Topic::plan, 1))["candidates"])
+    const Json shown = view.message(Topic::plan, 1).value();
+    for (const Json& candidate : shown["candidates"])
       EXPECT_EQ(candidate["chosen"], false) << choice;
   }
 }

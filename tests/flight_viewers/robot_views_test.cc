@@ -1,5 +1,6 @@
 #include "flight/viewers/robot_views.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "flight_viewers/made_robot.h"
@@ -92,7 +93,7 @@ TEST_F(RobotViewsTest, AMessageOfNonsenseIsCounted) {
 }
 
 TEST_F(RobotViewsTest, ThereAreAtMost32Robots) {
-  for (int i = 0; i < 40; ++i) hear("R" + std::to_string(i) + "_STATE", made_state());
+  for (int i = 0; i < 40; ++i) hear(fmt::format("R{}_STATE", i), made_state());
   EXPECT_EQ(views.all().size(), 32u);
   EXPECT_EQ(views.of("R39"), nullptr);
   EXPECT_FALSE(hear("R39_STATE", made_state()));
