@@ -93,6 +93,9 @@ class ExecutiveSafety : public ExecutiveFlying {
     output.command = Command{.stamp = input.now, .id = 7, .kind = CommandKind::takeoff};
     return output;
   }
+  void answer(std::int64_t id, bool accepted) {
+    board.acks.push({board.clock.now(), id, accepted, accepted ? "" : "not now"});
+  }
   /// Runs of the loop at its rate, which go on whatever is thrown.
   void run(int runs) {
     for (int i = 0; i < runs; ++i) {
@@ -144,12 +147,30 @@ TEST_F(ExecutiveSafety, LandsWithoutTheMissionWhereItThrowsAgainAndAgain) {
   EXPECT_LE(commands.size(), 4U);
   for (const command_t& command : commands) {
     EXPECT_EQ(command.kind, static_cast<int>(CommandKind::land));
-    EXPECT_EQ(command.id, 8);  // a new one, the same each time
+    EXPECT_EQ(command.id, 8);  // a new one, the same until it is answered
   }
   EXPECT_FALSE(board.mission_done);
   say_vehicle(false);
   run(1);
   EXPECT_TRUE(board.mission_done);
+}
+
+TEST_F(ExecutiveSafety, LandingAloneARefusedCommandIsFollowedByAnotherOneAnAgreedOneIsNot) {
+  run(1);
+  throws = true;
+  run(SafetyLoop::kMostThrows + 1);
+  commands.clear();
+  answer(8, false);
+  answer(8, false);  // the repeat, from memory
+  run(25);
+  ASSERT_GE(commands.size(), 2U);
+  for (const command_t& command : commands) EXPECT_EQ(command.id, 9);
+  commands.clear();
+  answer(8, false);  // late
+  answer(9, true);
+  run(25);
+  ASSERT_GE(commands.size(), 2U);
+  for (const command_t& command : commands) EXPECT_EQ(command.id, 9);
 }
 
 TEST_F(ExecutiveSafety, OnTheGroundItEndsWhereItThrowsAgainAndAgain) {
