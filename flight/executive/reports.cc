@@ -73,8 +73,11 @@ void Executive::publish_plan(const autonomy::Planning::Output& output) {
 
 void Executive::say_events(const FlightMark& mark) {
   for (const autonomy::MissionEvent& event : board_.events.take_all()) {
-    if (event.to == autonomy::MissionPhase::arming && !mark.set())
-      spdlog::warn("the flight cannot be marked: a restart would not know of it");
+    if (event.cause == autonomy::Cause::ready && !board_.marked) {
+      board_.marked = mark.set();
+      if (!board_.marked)
+        spdlog::error("the flight cannot be marked: a restart would not know of it, so it stays");
+    }
     if (event.cause == autonomy::Cause::armed) took_off_ = event.stamp;
     spdlog::info("{} → {}: {}: {}", to_string(event.from), to_string(event.to),
                  to_string(event.cause), event.text);

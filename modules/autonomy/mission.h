@@ -98,6 +98,7 @@ struct MissionInput {
   GuidanceStop stop;              ///< the last one
   Time plant_heard = 0;           ///< the newest state of the vehicle, or scan
   bool land_ordered = false;      ///< by a signal
+  bool marked = true;             ///< a restart would know of this flight: else it does not arm
   std::vector<Order> orders;      ///< of an operator, since the last step
 };
 

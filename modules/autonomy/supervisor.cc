@@ -62,6 +62,7 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.stop = std::move(input.stop);
   mission.plant_heard = std::max(input.heard.vehicle, input.heard.lidar);
   mission.land_ordered = input.land_ordered;
+  mission.marked = input.marked;
   mission.orders = std::move(input.orders);
   mission.safety = safety_.update(seen);
   if (mission_.phase() == MissionPhase::preflight) {

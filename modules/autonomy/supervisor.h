@@ -21,6 +21,7 @@ struct SupervisorInput {
   bool has_targets = false;          ///< or a geofence to sweep for them
   double classified_share = NAN;     ///< of the newest labelled scan
   bool land_ordered = false;
+  bool marked = true;         ///< a restart would know of this flight: else it does not arm
   std::vector<Order> orders;  ///< of an operator, since the last step; at any moment
 };
 

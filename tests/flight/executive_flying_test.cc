@@ -87,6 +87,7 @@ class ExecutiveSafety : public ExecutiveFlying {
   autonomy::Mission::Output step(const autonomy::SupervisorInput& input) {
     ++steps;
     land_ordered = input.land_ordered;
+    marked = input.marked;
     if (throws) throw std::bad_alloc();
     autonomy::Mission::Output output;
     output.orders = {GuidanceOrder::follow, PlanningOrder::tour};
@@ -109,7 +110,7 @@ class ExecutiveSafety : public ExecutiveFlying {
     }
   }
 
-  bool throws = false, land_ordered = false, signalled = false;
+  bool throws = false, land_ordered = false, signalled = false, marked = true;
   int steps = 0, thrown = 0;
   SafetyLoop loop{{.step = [this](autonomy::SupervisorInput input) { return step(input); },
                    .mission_done = [] { return false; },
@@ -155,6 +156,8 @@ TEST_F(ExecutiveSafety, LandsWithoutTheMissionWhereItThrowsAgainAndAgain) {
   EXPECT_TRUE(board.mission_done);
 }
 
+// Hazard: Stages and links | safety throws again and again, and the landing is refused | it is told
+//   to land by a new command | –
 TEST_F(ExecutiveSafety, LandingAloneARefusedCommandIsFollowedByAnotherOneAnAgreedOneIsNot) {
   run(1);
   throws = true;
@@ -187,6 +190,14 @@ TEST_F(ExecutiveSafety, ASignalIsHeardWhateverElseHangs) {
   signalled = true;
   run(1);
   EXPECT_TRUE(land_ordered);
+}
+
+TEST_F(ExecutiveSafety, TheMissionKnowsWhetherTheFlightIsMarked) {
+  run(1);
+  EXPECT_FALSE(marked);
+  board.marked = true;
+  run(1);
+  EXPECT_TRUE(marked);
 }
 
 class ExecutiveGuidance : public ExecutiveFlying {

@@ -54,6 +54,7 @@ class ExecutiveMemory : public testing::Test {
       network_missing = true;
       return;
     }
+    board.marked = true;
     safety.emplace(SafetyParts{.step =
                                    [this](autonomy::SupervisorInput input) {
                                      auto output = supervisor.step(std::move(input));
