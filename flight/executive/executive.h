@@ -8,9 +8,9 @@
 
 #include "flight/bus/bus.h"
 #include "flight/bus/object_messages.h"
-#include "flight/bus/occupancy_messages.h"
 #include "flight/bus/presence.h"
 #include "flight/executive/blackboard.h"
+#include "flight/executive/bus_listener.h"
 #include "flight/executive/flight_line.h"
 #include "flight/executive/guidance_loop.h"
 #include "flight/executive/loop.h"
@@ -71,7 +71,6 @@ class Executive {
 
  private:
   void make_loops();
-  void subscribe();
   void start_watchdog(Service& service);
   [[nodiscard]] bool start_loops();
   [[nodiscard]] bool wait_for_sensor();
@@ -119,7 +118,6 @@ class Executive {
   core::Timings timings_;
 
   // Each is used by its own loop alone.
-  OccupancyJoiner grid_joiner_;
   SensorLine sensor_line_;
   SensorNews sensor_news_;
   autonomy::Ingestion ingestion_;
@@ -138,6 +136,7 @@ class Executive {
   std::shared_ptr<const autonomy::Planning::Output> newest_plan_, plan_before_;
   GuidanceLoop guidance_;
   std::int64_t sent_trajectory_ = 0;
+  BusListener listener_;
   OrderReceiver order_receiver_;
   autonomy::Supervisor supervisor_;
   SafetyLoop safety_;

@@ -116,6 +116,7 @@ void Executive::say_health() {
   for (const auto& [name, value] : LoopFaultLog::counters(loops_, Loop::Steady::now()))
     message.counters.push_back(counter(name, value));
   if (safety_.lands_alone()) message.counters.push_back(counter("safety_lands_alone", 1));
+  if (listener_.ahead() > 0) message.counters.push_back(counter("stamps_ahead", listener_.ahead()));
   if (main_threw_ > 0) message.counters.push_back(counter("main_threw", main_threw_));
   for (const counter_t& each : {counter("packets_dropped", board_.packets.dropped()),
                                 counter("imu_dropped", board_.imu.dropped()),
