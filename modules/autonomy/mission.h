@@ -23,11 +23,12 @@
 ///                                        └──── hold ────┘      ▲
 ///                                               └──────────────┘
 ///
-/// Every wait has a deadline, and what happens then only goes to the right: a mission ends. A hold
-/// goes back to what it interrupted, at most `most_holds` times. Landing alone has no way out but
-/// the ground, or that vehicle and lidar are gone: at each deadline the command is given again, and
-/// said so. An operator's orders act as orders.h has them; while a pilot flies the phase is hold.
-/// Reads no clock.
+/// Every wait has a deadline, but one on the ground by order and one while a pilot flies, and what
+/// happens then only goes to the right: a mission ends. A hold goes back to what it interrupted, at
+/// most `most_holds` times; one by order returns after kOrderedHold_s. Landing alone has no way out
+/// but the ground, or that vehicle and lidar are gone: at each deadline the command is given again,
+/// and said so. An operator's orders act as orders.h has them; while a pilot flies the phase is
+/// hold. Reads no clock.
 namespace saker::autonomy {
 
 enum class MissionPhase { preflight, arming, takeoff, tour, return_home, hold, landing, done };
@@ -149,7 +150,7 @@ class Mission {
   void reply(const Order& order, OrderState state, std::string text);
   void act(OrderAct act, const MissionInput& input);
   void act_on_the_ground(OrderAct act, const MissionInput& input);
-  void recall(bool later);
+  void recall(bool later, Cause cause, core::Text text);
   [[nodiscard]] bool stays_on_the_ground(const MissionInput& input);
   [[nodiscard]] bool holds_above();
   [[nodiscard]] bool stays_held(const MissionInput& input);

@@ -86,19 +86,20 @@ void Mission::act(OrderAct act, const MissionInput& input) {
       [[fallthrough]];
     case OrderAct::hold_later:
       standing_.held = true;
+      standing_.held_since = now_;
       if (phase_ == MissionPhase::hold && standing_.since == 0) standing_.since = now_;
       return;
     case OrderAct::go_on:
       standing_.held = false;
       return;
     case OrderAct::tour_again:
-      if (outcome_ == Cause::ordered) outcome_ = Cause::landed;
+      if (outcome_ == Cause::ordered || outcome_ == Cause::hold_deadline) outcome_ = Cause::landed;
       standing_.recalled = false;
       return_begun_ = 0;
       return go(MissionPhase::tour, Cause::ordered, "goes on with its tour");
     case OrderAct::return_home:
     case OrderAct::return_later:
-      return recall(act == OrderAct::return_later);
+      return recall(act == OrderAct::return_later, Cause::ordered, "ordered to return");
     case OrderAct::land:
       fail(Cause::ordered);
       return land(Cause::ordered, "ordered to land");
@@ -121,16 +122,16 @@ void Mission::act_on_the_ground(OrderAct act, const MissionInput& input) {
   }
 }
 
-void Mission::recall(bool later) {
+void Mission::recall(bool later, Cause cause, core::Text text) {
   standing_.held = false;
   if (phase_ == MissionPhase::hold && interrupted_ == MissionPhase::return_home) return;
-  fail(Cause::ordered);
+  fail(cause);
   standing_.recalled = true;
   if (later) {
     interrupted_ = MissionPhase::return_home;
   } else {
     run_own_time();
-    go(MissionPhase::return_home, Cause::ordered, "ordered to return");
+    go(MissionPhase::return_home, cause, std::move(text));
   }
 }
 
@@ -154,7 +155,7 @@ bool Mission::holds_above() {
   if (!standing_.held) return false;
   interrupted_ = MissionPhase::tour;
   hold_cause_ = Cause::ordered;
-  standing_.since = now_;
+  standing_.since = standing_.held_since = now_;
   go(MissionPhase::hold, Cause::ordered, "at its height; holds until another order");
   return true;
 }
@@ -168,12 +169,18 @@ bool Mission::stays_held(const MissionInput& input) {
     standing_.regaining = false;
     if (!obeys) {
       standing_.held = true;
+      standing_.held_since = now_;
       say(Cause::command_deadline,
           fmt::format("no setpoint is obeyed after {:g} s; holds until another order", kRegain_s));
     }
   }
   const bool home = input.safety.action == SafetyAction::return_home;
-  if (standing_.held && !home) return true;
+  if (standing_.held && !home) {
+    if (now_ - standing_.held_since <= from_seconds(kOrderedHold_s)) return true;
+    recall(false, Cause::hold_deadline,
+           core::text("no other order for {:g} s; returns", kOrderedHold_s));
+    if (phase_ != MissionPhase::hold) return true;
+  }
   standing_.held = false;
   run_own_time();
   return false;

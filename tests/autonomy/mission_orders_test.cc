@@ -5,10 +5,13 @@
 namespace saker::autonomy {
 namespace {
 
-TEST_F(InFlight, HoldStaysUntilResumeHoweverLongAndTheMissionSucceeds) {
-  EXPECT_EQ(order(OrderKind::hold).state, OrderState::accepted);
-  EXPECT_EQ(phase(), MissionPhase::hold);
-  run(config.tour_s + 10);  // its deadline waits, too
+TEST_F(InFlight, HoldStaysUntilResumeAsLongAsItIsOrderedAgainAndTheMissionSucceeds) {
+  for (double held_s = 0; held_s <= config.tour_s; held_s += kOrderedHold_s) {
+    EXPECT_EQ(order(OrderKind::hold).state, OrderState::accepted);
+    EXPECT_EQ(phase(), MissionPhase::hold);
+    run(kOrderedHold_s - 1);
+  }
+  // Its deadline waits, too.
   EXPECT_EQ(orders, kHolds);
   EXPECT_EQ(order(OrderKind::resume).state, OrderState::accepted);
   run(0.1);
@@ -18,6 +21,26 @@ TEST_F(InFlight, HoldStaysUntilResumeHoweverLongAndTheMissionSucceeds) {
   come_home();
   ASSERT_TRUE(run_to(MissionPhase::done));
   EXPECT_TRUE(supervisor.mission().succeeded());
+}
+
+// Hazard: Orders and the radio | the link dies after an order to hold | returns after 5 min | –
+TEST_F(InFlight, AHoldThatNobodySaysAnythingToReturns) {
+  order(OrderKind::hold);
+  run(kOrderedHold_s - 1);
+  EXPECT_EQ(phase(), MissionPhase::hold);
+  ASSERT_TRUE(run_to(MissionPhase::return_home, 2));
+  EXPECT_EQ(outcome(), Cause::hold_deadline);
+  EXPECT_EQ(order(OrderKind::resume).state, OrderState::accepted);  // the link is back
+  EXPECT_EQ(phase(), MissionPhase::tour);
+  EXPECT_EQ(outcome(), Cause::landed);
+}
+
+TEST_F(InFlight, AHoldOnTheWayHomeThatNobodySaysAnythingToGoesOnHome) {
+  come_home();
+  planning.status = PlanningStatus::flying;
+  order(OrderKind::hold);
+  EXPECT_TRUE(run_to(MissionPhase::return_home, kOrderedHold_s + 1));
+  EXPECT_EQ(outcome(), Cause::landed);
 }
 
 TEST_F(InFlight, TheSameOrderOnceMoreIsTheSameAnswerAndNothingElse) {

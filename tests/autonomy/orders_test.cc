@@ -20,7 +20,7 @@ constexpr std::array<std::pair<Situation, Row>, kSituations> kPromised = {{
     {Situation::tour, {hold, nothing, return_home, land, land_now}},
     {Situation::returning, {hold, refuse, nothing, land, land_now}},
     {Situation::recalled, {hold, tour_again, nothing, land, land_now}},
-    {Situation::held, {nothing, go_on, return_home, land, land_now}},
+    {Situation::held, {hold_later, go_on, return_home, land, land_now}},
     {Situation::waiting, {hold_later, go_on, return_later, land, land_now}},
     {Situation::landing, {refuse, refuse, refuse, nothing, land_now}},
     {Situation::taken_over, {refuse, take_back, refuse, refuse, refuse}},
