@@ -214,7 +214,10 @@ bool Mission::somebody_else_flies(const MissionInput& input) {
   return true;
 }
 
+/// What was commanded before is not repeated into a pilot's hands.
 void Mission::hand_over() {
+  commands_.cancel();
+  out_.command.reset();
   const bool climbs = phase_ == MissionPhase::takeoff;
   if (phase_ != MissionPhase::hold) interrupted_ = climbs ? MissionPhase::tour : phase_;
   if (standing_.since == 0) standing_.since = now_;
