@@ -149,6 +149,7 @@ class Mission {
   void obey_orders(const MissionInput& input);
   void reply(const Order& order, OrderState state, std::string text);
   void act(OrderAct act, const MissionInput& input);
+  [[nodiscard]] bool turns_off(OrderAct act, const MissionInput& input) const;
   void act_on_the_ground(OrderAct act, const MissionInput& input);
   void recall(bool later, Cause cause, core::Text text);
   [[nodiscard]] bool stays_on_the_ground(const MissionInput& input);
@@ -157,6 +158,7 @@ class Mission {
   void run_own_time();
   [[nodiscard]] bool somebody_else_flies(const MissionInput& input);
   void hand_over();
+  void follow_motors_off();
   void begin_take_back(const Order& order, const MissionInput& input);
   void follow_take_back(const MissionInput& input);
   void regain();

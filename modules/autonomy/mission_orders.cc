@@ -46,6 +46,7 @@ Situation Mission::situation(const MissionInput& input) const {
 /// The one place at which orders act: at the end of a step, on what it came to.
 void Mission::obey_orders(const MissionInput& input) {
   follow_take_back(input);
+  follow_motors_off();
   for (const Order& order : input.orders) {
     if (const OrderReply* before = standing_.reply_to(order.id)) {
       out_.reply = *before;
@@ -56,8 +57,13 @@ void Mission::obey_orders(const MissionInput& input) {
       begin_take_back(order, input);
       continue;
     }
-    const bool refused = ruled.act == OrderAct::refuse;
-    reply(order, refused ? OrderState::refused : OrderState::accepted, ruled.text);
+    if (turns_off(ruled.act, input)) {
+      out_.reply = standing_.keep({order, OrderState::waiting, "turns the motors off"});
+      standing_.motors_off = OrderReply{order, OrderState::accepted, ruled.text};
+    } else {
+      const bool refused = ruled.act == OrderAct::refuse;
+      reply(order, refused ? OrderState::refused : OrderState::accepted, ruled.text);
+    }
     act(ruled.act, input);
   }
 }
@@ -109,14 +115,20 @@ void Mission::act(OrderAct act, const MissionInput& input) {
   }
 }
 
+/// Whether the order needs motors off that run, or may.
+bool Mission::turns_off(OrderAct act, const MissionInput& input) const {
+  const bool stays = act == OrderAct::keep || act == OrderAct::disarm || act == OrderAct::end;
+  return stays && (phase_ == MissionPhase::arming || input.vehicle.armed || standing_.motors_off);
+}
+
 void Mission::act_on_the_ground(OrderAct act, const MissionInput& input) {
-  const bool motors = phase_ == MissionPhase::arming || input.vehicle.armed;
+  const bool motors = turns_off(act, input);
   standing_.held = act != OrderAct::end;
   standing_.ending = act == OrderAct::end && motors;
   if (act == OrderAct::end) fail(Cause::ordered);
   if (motors) {
     commands_.issue(CommandKind::disarm, NAN, now_);
-    go(MissionPhase::preflight, Cause::ordered, "motors off");
+    go(MissionPhase::preflight, Cause::ordered, "turns the motors off");
   } else if (act == OrderAct::end) {
     go(MissionPhase::done, Cause::ordered, "ended before take-off");
   }
@@ -225,6 +237,20 @@ void Mission::hand_over() {
   standing_.regaining = false;
   go(MissionPhase::hold, Cause::taken_over,
      "somebody else flies: nothing that moves is sent until an operator resumes");
+}
+
+/// An order on the ground is answered by what the flight controller says to it.
+void Mission::follow_motors_off() {
+  const bool asks = commands_.kind() == CommandKind::disarm;
+  if (!standing_.motors_off || (asks && commands_.progress() == CommandProgress::waiting)) return;
+  const OrderReply off = *std::exchange(standing_.motors_off, std::nullopt);
+  if (!asks) {
+    reply(off.order, OrderState::refused, "another command took its place");
+  } else if (failed_command()) {
+    reply(off.order, OrderState::refused, command_text());
+  } else {
+    reply(off.order, off.state, off.text);
+  }
 }
 
 /// Where the ladder would land or hold at once, who flies keeps it; a landing goes on unless the

@@ -33,7 +33,7 @@ constexpr std::array<Row, kSituations> kTable = {{
       kEnd,
       kEnd}},
     // kept
-    {{{nothing, "stays on the ground until resume"},
+    {{{keep, "stays on the ground until resume"},
       {go_on, "takes off when nothing is missing"},
       kEnd,
       kEnd,

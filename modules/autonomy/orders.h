@@ -118,6 +118,7 @@ struct StandingOrders {
   bool regaining = false;   ///< resumed; setpoints are not obeyed yet
   Time held_since = 0;      ///< in flight: the last order to hold
   Time since = 0;           ///< when the mission's own time stopped; 0: it runs
+  std::optional<OrderReply> motors_off;  ///< on the ground: to be said when they are
   std::optional<Order> taking_back;
   Time taken_back = 0;  ///< the flight controller agreed to `taking_back`; 0: not yet
   std::vector<OrderReply> replies;

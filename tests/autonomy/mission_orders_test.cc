@@ -216,6 +216,50 @@ TEST_F(Orders, WhileItArmsAnAbortTurnsTheMotorsOffBeforeItEnds) {
   EXPECT_EQ(sent(CommandKind::takeoff), 0);
 }
 
+TEST_F(Orders, WhileItArmsAHoldIsAgreedToWhenTheMotorsAreOff) {
+  answers = false;
+  ASSERT_TRUE(run_to(MissionPhase::arming));
+  armed = true;
+  EXPECT_EQ(order(OrderKind::hold).state, OrderState::waiting);
+  run(1);
+  EXPECT_EQ(reply.state, OrderState::waiting);
+  EXPECT_TRUE(armed);
+  answers = true;
+  run(0.5);
+  EXPECT_EQ(reply.state, OrderState::accepted);
+  EXPECT_EQ(reply.text, "motors off, stays on the ground until resume");
+  EXPECT_FALSE(armed);
+}
+
+// Hazard: Orders and the radio | an order on the ground, the motors do not go off | refused with
+//   the cause; the next order tries again | –
+TEST_F(Orders, WhereTheMotorsDoNotGoOffTheOrderIsRefusedAndTheNextOneTriesAgain) {
+  answers = false;
+  ASSERT_TRUE(run_to(MissionPhase::arming));
+  armed = true;
+  order(OrderKind::hold);
+  run(config.command.deadline_s + 0.1);
+  EXPECT_EQ(reply.state, OrderState::refused);
+  EXPECT_EQ(reply.text, "disarm: no answer for 3 s");
+  EXPECT_EQ(order(OrderKind::hold).state, OrderState::waiting);
+  answers = true;
+  run(0.5);
+  EXPECT_EQ(reply.state, OrderState::accepted);
+  EXPECT_FALSE(armed);
+}
+
+TEST_F(Orders, WhileTheMotorsMayRunAnAbortWaitsForThem) {
+  answers = false;
+  ASSERT_TRUE(run_to(MissionPhase::arming));
+  order(OrderKind::hold);
+  EXPECT_EQ(order(OrderKind::abort).state, OrderState::waiting);
+  run(1);
+  EXPECT_EQ(phase(), MissionPhase::preflight);
+  answers = true;
+  ASSERT_TRUE(run_to(MissionPhase::done, 1));
+  EXPECT_EQ(reply.state, OrderState::accepted);
+}
+
 TEST_F(Orders, WhileItArmsAHoldTurnsTheMotorsOffAndResumeArmsAnew) {
   answers = false;
   ASSERT_TRUE(run_to(MissionPhase::arming));

@@ -13,7 +13,7 @@ using enum OrderAct;
 /// What docs/flying.md promises, cell for cell: hold, resume, return, land, abort.
 constexpr std::array<std::pair<Situation, Row>, kSituations> kPromised = {{
     {Situation::preflight, {keep, nothing, end, end, end}},
-    {Situation::kept, {nothing, go_on, end, end, end}},
+    {Situation::kept, {keep, go_on, end, end, end}},
     {Situation::not_ours, {keep, take_back, end, end, end}},
     {Situation::arming, {disarm, nothing, end, end, end}},
     {Situation::takeoff, {hold_later, go_on, land, land, land_now}},
