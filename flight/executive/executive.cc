@@ -60,7 +60,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                 config.autonomy.mission.height_m, uncertainty_),
       guidance_(config.autonomy.guidance, board_, bus),
       listener_(board_, bus_),
-      order_receiver_(config_.exchange, bus_, board_.operator_orders),
+      order_receiver_(config_.exchange, bus_, board_.operator_orders, board_.order_reply),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()),
       safety_(
           {.step = [this](autonomy::SupervisorInput in) { return supervisor_.step(std::move(in)); },
