@@ -13,6 +13,7 @@
 #include "flight/executive/bus_listener.h"
 #include "flight/executive/flight_line.h"
 #include "flight/executive/guidance_loop.h"
+#include "flight/executive/health_counters.h"
 #include "flight/executive/loop.h"
 #include "flight/executive/loop_faults.h"
 #include "flight/executive/order_receiver.h"
@@ -98,6 +99,7 @@ class Executive {
   void say_events(const FlightMark& mark);
   void say_sensor();
   void say_health();
+  [[nodiscard]] HealthFigures health_figures() const;
   void say_progress(const Service& service);
   [[nodiscard]] FlightStatus status();
   void say_totals() const;
