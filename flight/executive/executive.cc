@@ -43,7 +43,6 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       sensor_(input.sensor),
       bus_(bus),
       presence_(presence),
-      timings_({"odometry", "segmentation", "mapping", "planning"}),
       sensor_line_(config.sensor, input.sensor, kSensorRate_hz),
       ingestion_(config.autonomy.odometry, config.autonomy.standstill, input.sensor,
                  lidar::mount_pose(config.autonomy.mount)),

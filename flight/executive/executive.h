@@ -20,11 +20,11 @@
 #include "flight/executive/robot_exchange.h"
 #include "flight/executive/safety_loop.h"
 #include "flight/executive/sensor_line.h"
+#include "flight/executive/stage_timings.h"
 #include "flight/process/configuration.h"
 #include "flight/process/service.h"
 #include "saker/autonomy/body_pose.h"
 #include "saker/autonomy/supervisor.h"
-#include "saker/core/timings.h"
 
 /// The autonomy executive: the stages of `modules/autonomy` under real time, one thread a loop.
 ///
@@ -117,7 +117,7 @@ class Executive {
   Bus& bus_;
   Presence& presence_;
   Blackboard board_;
-  core::Timings timings_;
+  StageTimings timings_;
 
   // Each is used by its own loop alone.
   SensorLine sensor_line_;
