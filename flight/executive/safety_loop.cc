@@ -57,10 +57,10 @@ autonomy::SupervisorInput SafetyLoop::seen(Time now) {
   input.heard.lidar = board_.newest_scan;
   input.heard.odometry = board_.newest_registered;
   input.heard.guidance = board_.guided;
+  input.marked = board_.marked;
   while (auto ack = board_.acks.pop()) input.acks.push_back(std::move(*ack));
   input.has_targets = parts_.has_targets;
   input.land_ordered = parts_.land_ordered();
-  input.marked = board_.marked;
   if (board_.operator_orders.size() > 0) input.orders = board_.operator_orders.take_all();
   return input;
 }

@@ -23,7 +23,8 @@ struct SafetyParts {
 
 /// The loop of safety and mission, 50 Hz — reads ages and values from the blackboard, makes orders
 /// (for guidance, planning), commands (for the flight controller) and events. It waits for nobody
-/// but for who copies a small value, and in flight allocates nothing.
+/// but for who copies a small value, and in flight allocates nothing but the answer to an
+/// operator's order.
 ///
 /// Last resort: where its step throws kMostThrows times in a row (0.1 s, in which what was ordered
 /// holds), there is no mission any more. Setpoints end, so that the flight controller holds, and it

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saker/autonomy/cause.h"
@@ -92,15 +93,15 @@ struct MissionInput {
   Time now = 0;
   VehicleState vehicle;
   VehicleOdometry odometry;
-  Acks acks;                      ///< since the last step
-  std::vector<Finding> findings;  ///< of safety, on the ground and while somebody else flies
-  SafetyDecision safety;          ///< in flight
-  PlanningReport planning;        ///< the newest
-  GuidanceStop stop;              ///< the last one
-  Time plant_heard = 0;           ///< the newest state of the vehicle, or scan
-  bool land_ordered = false;      ///< by a signal
-  bool marked = true;             ///< a restart would know of this flight: else it does not arm
-  std::vector<Order> orders;      ///< of an operator, since the last step
+  Acks acks;                          ///< since the last step
+  std::span<const Finding> findings;  ///< of safety, on the ground and while somebody else flies
+  SafetyDecision safety;              ///< in flight
+  PlanningReport planning;            ///< the newest
+  GuidanceStop stop;                  ///< the last one
+  Time plant_heard = 0;               ///< the newest state of the vehicle, or scan
+  bool land_ordered = false;          ///< by a signal
+  bool marked = true;                 ///< a restart would know of this flight: else it does not arm
+  std::vector<Order> orders;          ///< of an operator, since the last step
 };
 
 /// What holds from one step to the next.

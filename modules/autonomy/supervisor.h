@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saker/autonomy/mission.h"
@@ -37,12 +38,13 @@ class Supervisor {
 
  private:
   [[nodiscard]] SafetyInput safety_input(const SupervisorInput& input) const;
-  [[nodiscard]] std::vector<Finding> on_the_ground(const SupervisorInput& input,
-                                                   const SafetyInput& seen) const;
+  [[nodiscard]] std::span<const Finding> on_the_ground(const SupervisorInput& input,
+                                                       const SafetyInput& seen);
 
   double height_m_;
   double least_classified_share_;
   Safety safety_;
+  std::vector<Finding> found_;  // of this step, for the mission; its memory is used again
   Mission mission_;
   Time planning_since_ = 0;  // when planning was last asked to begin; 0: it is not asked
 };

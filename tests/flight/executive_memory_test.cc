@@ -205,6 +205,18 @@ TEST_F(ExecutiveMemory, NothingIsAllocatedFromTheTourToTheGround) {
   EXPECT_GT(events.size(), 7U);
 }
 
+TEST_F(ExecutiveMemory, NothingIsAllocatedWhileSomebodyElseFliesAndMuchIsWrong) {
+  ASSERT_TRUE(fly_to(MissionPhase::tour));
+  fly(1);
+  allocated = 0;
+  vehicle.faults = kTakenOver;
+  checker_hangs = true;
+  battery = 0.1;
+  fly(2);
+  EXPECT_TRUE(supervisor.mission().taken_over());
+  EXPECT_EQ(allocated, 0);
+}
+
 TEST_F(ExecutiveMemory, NothingIsAllocatedOnTheWayUp) {
   ASSERT_TRUE(fly_to(MissionPhase::takeoff));
   allocated = 0;
