@@ -57,8 +57,9 @@ class Executive {
 
   /// Until the mission is done, and a base in reach has what there is to tell. The first stop
   /// request lands, the second one ends at once. Feeds the watchdog of `service`, which has to
-  /// outlive this, until this is destroyed, and sets `mark` when nothing is missing any more:
-  /// without it the mission does not arm. \return whether the mission succeeded
+  /// outlive this, until this is destroyed, and sets `mark` when nothing is missing any more: no
+  /// mark, no arming.
+  /// \return whether the mission succeeded
   [[nodiscard]] bool run(Service& service, const FlightMark& mark);
 
   /// Map, trajectories and timings, as `saker replay` leaves them, and history.bin, what this
