@@ -38,12 +38,13 @@ class Orders : public testing::Test {
     SupervisorInput input;
     input.now = now;
     const Time checker = checker_lives ? now : checker_died;
-    input.heard = {now, now, now, checker, now, now, now};
+    input.heard = {now, now, now, checker, now, now, now, now};
     input.vehicle.stamp = now;
     input.vehicle.armed = armed;
     input.vehicle.mode = mode;
     input.vehicle.battery_share = battery;
     input.vehicle.faults = taken_over ? kTakenOver : 0U;
+    input.odometry.stamp = now;
     input.odometry.status = VehicleOdometryStatus::ok;
     input.odometry.T_odom_body.translation() = Eigen::Vector3d(0, 0, height);
     input.acks = std::exchange(acks, {});

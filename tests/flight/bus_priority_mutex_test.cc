@@ -15,7 +15,7 @@ namespace {
 using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kHeld{20};   // of processor time, while the lock is held
+constexpr milliseconds kHeld{20};   // beyond the preemption, while the lock is held
 constexpr milliseconds kBusy{400};  // of the one between, which wants no lock
 constexpr milliseconds kPatient{150};
 
@@ -36,30 +36,45 @@ void stay_on_one_processor() {
   sched_setaffinity(0, sizeof one, &one);
 }
 
+struct Inversion {
+  std::atomic<bool> held = false;  // by the ordinary thread
+  std::atomic<bool> busy = false;  // the one between, which preempts it
+
+  /// However slow the machine is, the one between comes while the lock is held.
+  void hold() {
+    held = true;
+    while (!busy) {
+    }
+    spin(kHeld);
+  }
+};
+
 /// On one processor: an ordinary thread takes what another of priority 10 then wants, and is
 /// preempted by a busy one of priority 5. How long the one of priority 10 waits.
 template <class Hold, class Want>
-Steady::duration waited(const Hold& hold, const Want& want, const std::atomic<bool>& held) {
-  std::atomic<bool> busy = false;
+Steady::duration waited(const Hold& hold, const Want& want, Inversion& inversion) {
+  auto& [held, busy] = inversion;
   Steady::duration longest{};
   std::thread low([&] {
     stay_on_one_processor();
     hold();
   });
-  while (!held) std::this_thread::sleep_for(milliseconds(1));
-  std::thread middle([&] {
-    stay_on_one_processor();
-    EXPECT_EQ(take_priority(5), "");
-    busy = true;
-    spin(kBusy);
-  });
+  std::atomic<bool> ready = false;
   std::thread high([&] {
-    stay_on_one_processor();
     EXPECT_EQ(take_priority(10), "");
+    stay_on_one_processor();
+    ready = true;
     while (!busy) std::this_thread::sleep_for(milliseconds(1));
     const auto begin = Steady::now();
     want();
     longest = Steady::now() - begin;
+  });
+  while (!held || !ready) std::this_thread::sleep_for(milliseconds(1));
+  std::thread middle([&] {
+    EXPECT_EQ(take_priority(5), "");
+    stay_on_one_processor();
+    busy = true;
+    spin(kBusy);
   });
   for (std::thread* thread : {&low, &middle, &high}) thread->join();
   return longest;
@@ -68,26 +83,23 @@ Steady::duration waited(const Hold& hold, const Want& want, const std::atomic<bo
 template <class Mutex>
 Steady::duration waited_for() {
   Mutex mutex;
-  std::atomic<bool> held = false;
+  Inversion inversion;
   return waited(
       [&] {
         const std::lock_guard lock(mutex);
-        held = true;
-        spin(kHeld);
+        inversion.hold();
       },
-      [&] { const std::lock_guard lock(mutex); }, held);
+      [&] { const std::lock_guard lock(mutex); }, inversion);
 }
 
 /// A value whose copy takes long, and says that it is under way.
 struct Slow {
-  std::atomic<bool>* held = nullptr;
+  Inversion* inversion = nullptr;
   Slow() = default;
-  explicit Slow(std::atomic<bool>& flag) : held(&flag) {}
+  explicit Slow(Inversion& its) : inversion(&its) {}
   Slow(const Slow&) = default;
   Slow& operator=(const Slow& other) {
-    held = other.held;
-    *held = true;
-    spin(kHeld);
+    if (other.inversion != nullptr) other.inversion->hold();
     return *this;
   }
 };
@@ -110,9 +122,10 @@ TEST_F(BusPriorityMutex, WaitsForItsHolderAlone) {
 
 TEST_F(BusPriorityMutex, SoDoesWhoReadsAValue) {
   ValueBox<Slow> box;
-  std::atomic<bool> held = false;
+  Inversion inversion;
   box.put(Slow());
-  EXPECT_LT(waited([&] { box.put(Slow(held)); }, [&] { (void)box.latest(); }, held), kPatient);
+  EXPECT_LT(waited([&] { box.put(Slow(inversion)); }, [&] { (void)box.latest(); }, inversion),
+            kPatient);
 }
 
 TEST_F(BusPriorityMutex, IsLockedOnceAtATime) {
