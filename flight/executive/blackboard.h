@@ -72,6 +72,7 @@ struct Blackboard {
   ValueBox<Orders> orders;
   Mailbox<autonomy::OrderReply> order_reply;
   BoundedQueue<autonomy::MissionEvent> events{64};
+  std::atomic<bool> marked = false;  // by the main thread: before that nothing arms
   std::atomic<bool> mission_done = false;
 };
 

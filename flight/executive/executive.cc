@@ -43,7 +43,6 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       sensor_(input.sensor),
       bus_(bus),
       presence_(presence),
-      timings_({"odometry", "segmentation", "mapping", "planning"}),
       sensor_line_(config.sensor, input.sensor, kSensorRate_hz),
       ingestion_(config.autonomy.odometry, config.autonomy.standstill, input.sensor,
                  lidar::mount_pose(config.autonomy.mount)),
@@ -59,7 +58,8 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                 config.autonomy.motion, config.autonomy.objects, input.prior,
                 config.autonomy.mission.height_m, uncertainty_),
       guidance_(config.autonomy.guidance, board_, bus),
-      order_receiver_(config_.exchange, bus_, board_.operator_orders),
+      listener_(board_, bus_),
+      order_receiver_(config_.exchange, bus_, board_.operator_orders, board_.order_reply),
       supervisor_(config.autonomy.safety, config.autonomy.mission, planning_.geofence()),
       safety_(
           {.step = [this](autonomy::SupervisorInput in) { return supervisor_.step(std::move(in)); },
@@ -70,7 +70,6 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
       exchange_(input.exchange),
       figures_(input.figures) {
   board_.orders.put(Orders{});
-  subscribe();
   make_loops();
 }
 
@@ -80,32 +79,6 @@ Executive::~Executive() {
   if (ended()) return;
   spdlog::default_logger()->flush();
   std::_Exit(kInvalid);
-}
-
-void Executive::subscribe() {
-  bus_.subscribe<vehicle_state_t>([this](const vehicle_state_t& message) {
-    auto state = from_lcm(message);
-    if (state) board_.vehicle.put(std::move(*state));
-    return state.has_value();
-  });
-  bus_.subscribe<command_ack_t>([this](const command_ack_t& message) {
-    auto ack = from_lcm(message);
-    if (ack) board_.acks.push(std::move(*ack));
-    return ack.has_value();
-  });
-  bus_.subscribe<verdict_t>([this](const verdict_t& message) {
-    auto verdict = from_lcm(message);
-    if (verdict) board_.verdict.put(std::move(*verdict));
-    return verdict.has_value();
-  });
-  bus_.subscribe<occupancy_t>([this](const occupancy_t& chunk) {
-    if (auto grid = grid_joiner_.add(chunk)) {
-      const Time stamp = grid->stamp;
-      board_.grid.put(std::move(*grid));
-      board_.newest_grid = stamp;
-    }
-    return grid_joiner_.accepted();
-  });
 }
 
 void Executive::make_loops() {

@@ -8,22 +8,23 @@
 
 #include "flight/bus/bus.h"
 #include "flight/bus/object_messages.h"
-#include "flight/bus/occupancy_messages.h"
 #include "flight/bus/presence.h"
 #include "flight/executive/blackboard.h"
+#include "flight/executive/bus_listener.h"
 #include "flight/executive/flight_line.h"
 #include "flight/executive/guidance_loop.h"
+#include "flight/executive/health_counters.h"
 #include "flight/executive/loop.h"
 #include "flight/executive/loop_faults.h"
 #include "flight/executive/order_receiver.h"
 #include "flight/executive/robot_exchange.h"
 #include "flight/executive/safety_loop.h"
 #include "flight/executive/sensor_line.h"
+#include "flight/executive/stage_timings.h"
 #include "flight/process/configuration.h"
 #include "flight/process/service.h"
 #include "saker/autonomy/body_pose.h"
 #include "saker/autonomy/supervisor.h"
-#include "saker/core/timings.h"
 
 /// The autonomy executive: the stages of `modules/autonomy` under real time, one thread a loop.
 ///
@@ -56,7 +57,8 @@ class Executive {
 
   /// Until the mission is done, and a base in reach has what there is to tell. The first stop
   /// request lands, the second one ends at once. Feeds the watchdog of `service`, which has to
-  /// outlive this, until this is destroyed, and sets `mark` before it arms.
+  /// outlive this, until this is destroyed, and sets `mark` when nothing is missing any more: no
+  /// mark, no arming.
   /// \return whether the mission succeeded
   [[nodiscard]] bool run(Service& service, const FlightMark& mark);
 
@@ -71,7 +73,6 @@ class Executive {
 
  private:
   void make_loops();
-  void subscribe();
   void start_watchdog(Service& service);
   [[nodiscard]] bool start_loops();
   [[nodiscard]] bool wait_for_sensor();
@@ -99,6 +100,7 @@ class Executive {
   void say_events(const FlightMark& mark);
   void say_sensor();
   void say_health();
+  [[nodiscard]] HealthFigures health_figures() const;
   void say_progress(const Service& service);
   [[nodiscard]] FlightStatus status();
   void say_totals() const;
@@ -116,10 +118,9 @@ class Executive {
   Bus& bus_;
   Presence& presence_;
   Blackboard board_;
-  core::Timings timings_;
+  StageTimings timings_;
 
   // Each is used by its own loop alone.
-  OccupancyJoiner grid_joiner_;
   SensorLine sensor_line_;
   SensorNews sensor_news_;
   autonomy::Ingestion ingestion_;
@@ -138,6 +139,7 @@ class Executive {
   std::shared_ptr<const autonomy::Planning::Output> newest_plan_, plan_before_;
   GuidanceLoop guidance_;
   std::int64_t sent_trajectory_ = 0;
+  BusListener listener_;
   OrderReceiver order_receiver_;
   autonomy::Supervisor supervisor_;
   SafetyLoop safety_;

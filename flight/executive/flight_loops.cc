@@ -40,7 +40,7 @@ LoopStatus Executive::plan() {
   const auto deadline =
       core::Budget::Clock::now() + std::chrono::duration_cast<core::Budget::Clock::duration>(
                                        std::chrono::duration<double>(config.budget_s));
-  autonomy::Planning::Output output = timings_.time("planning", [&] {
+  autonomy::Planning::Output output = timings_.ordinary.time("planning", [&] {
     return planning_.step(input, core::Budget::until(deadline, config.iterations));
   });
   if (input.order == PlanningOrder::tour) publish_plan(output);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -15,11 +16,13 @@
 namespace saker::flight {
 
 OrderReceiver::OrderReceiver(const ExchangeConfig& config, Bus& bus,
-                             BoundedQueue<autonomy::Order>& orders)
+                             BoundedQueue<autonomy::Order>& orders,
+                             Mailbox<autonomy::OrderReply>& replies)
     : robot_(bus.robot()),
       most_age_s_(config.order_age_s),
       since_utime_(system_utime()),
-      orders_(orders) {
+      orders_(orders),
+      replies_(replies) {
   if (std::filesystem::exists(config.key_file)) {
     memory_ = ::memfd_create("orders", MFD_CLOEXEC);
     if (memory_ < 0) throw Error(fmt::format("no memory for orders: {}", std::strerror(errno)));
@@ -56,9 +59,25 @@ bool OrderReceiver::refuse(OrderVerdict verdict, const OpenedOrder& order) {
   ++refused_;
   std::string line = fmt::format("an order is refused: {}", to_string(verdict));
   if (!order.sender.empty()) line += fmt::format(" ({})", order.sender);
-  if (verdict == OrderVerdict::late) line += fmt::format(", {:.1f} s ago", order.age_s);
-  lines_.push(std::move(line));
+  lines_.push(line + detail(verdict, order));
+  answer(verdict, order);
   return false;
+}
+
+/// Not where it may be a copy, held back, of an order that was taken.
+void OrderReceiver::answer(OrderVerdict verdict, const OpenedOrder& order) {
+  const auto newest = newest_.find(order.sender);
+  const bool taken = newest != newest_.end() && order.order.id == newest->second;
+  if ((verdict != OrderVerdict::late && verdict != OrderVerdict::overtaken) || taken) return;
+  replies_.put(autonomy::OrderReply{order.order, autonomy::OrderState::refused,
+                                    to_string(verdict) + detail(verdict, order)});
+}
+
+std::string OrderReceiver::detail(OrderVerdict verdict, const OpenedOrder& order) const {
+  if (verdict != OrderVerdict::late) return "";
+  if (std::abs(order.age_s) <= most_age_s_) return ": it is older than this process";
+  return fmt::format(": the robot's is {:.1f} s {}", std::abs(order.age_s),
+                     order.age_s > 0 ? "ahead" : "behind");
 }
 
 }  // namespace saker::flight

@@ -46,8 +46,8 @@ LoopStatus Executive::ingest() {
   auto frame = ingestion_.take_newest();
   board_.newest_scan = ingestion_.newest_stamp();
   if (frame) {
-    take_scan(
-        timings_.time("odometry", [&] { return ingestion_.register_scan(std::move(*frame)); }));
+    take_scan(timings_.ingestion.time("odometry",
+                                      [&] { return ingestion_.register_scan(std::move(*frame)); }));
   }
   return {age_ms(board_.newest_scan), board_.packets.dropped() + ingestion_.dropped_scans()};
 }
@@ -69,7 +69,7 @@ void Executive::take_scan(autonomy::IngestedScan scan) {
 LoopStatus Executive::segment() {
   const auto scan = board_.scan.take();
   if (scan == nullptr) return {age_ms(board_.newest_registered), 0};
-  auto labels = timings_.time("segmentation", [&] {
+  auto labels = timings_.ordinary.time("segmentation", [&] {
     return std::make_shared<const lidar::Labels>(segmentation_.segment(*scan->scan));
   });
   const autonomy::RegisteredScan& registered = scan->registered;
@@ -87,7 +87,7 @@ LoopStatus Executive::map() {
   if (labelled.empty()) return {age_ms(old ? old->stamp : 0), board_.labelled.dropped()};
   for (detection::LabelledScan& scan : labelled) window_.add(std::move(scan));
   const std::vector<detection::LabelledScan> window = window_.scans();
-  auto map = timings_.time(
+  auto map = timings_.ordinary.time(
       "mapping", [&] { return mapping_.cycle(window, motion_log_.take(window.back().stamp)); });
   bus_.publish(to_lcm(map->detections));
   if (exchange_ != nullptr) exchange_->add(mapping_.slam().history());

@@ -11,13 +11,6 @@
 namespace saker::flight {
 namespace {
 
-counter_t counter(const std::string& name, long value) {
-  counter_t message{};
-  message.name = name;
-  message.value = value;
-  return message;
-}
-
 candidate_t to_lcm(const active::ViewpointCandidate& candidate) {
   candidate_t message{};
   message.target_id = candidate.viewpoint.target_id;
@@ -73,8 +66,11 @@ void Executive::publish_plan(const autonomy::Planning::Output& output) {
 
 void Executive::say_events(const FlightMark& mark) {
   for (const autonomy::MissionEvent& event : board_.events.take_all()) {
-    if (event.to == autonomy::MissionPhase::arming && !mark.set())
-      spdlog::warn("the flight cannot be marked: a restart would not know of it");
+    if (event.cause == autonomy::Cause::ready && !board_.marked) {
+      board_.marked = mark.set();
+      if (!board_.marked)
+        spdlog::error("the flight cannot be marked: a restart would not know of it, so it stays");
+    }
     if (event.cause == autonomy::Cause::armed) took_off_ = event.stamp;
     spdlog::info("{} → {}: {}: {}", to_string(event.from), to_string(event.to),
                  to_string(event.cause), event.text);
@@ -98,6 +94,24 @@ void Executive::say_sensor() {
     spdlog::warn(line);
 }
 
+HealthFigures Executive::health_figures() const {
+  HealthFigures figures;
+  figures.faults = LoopFaultLog::counters(loops_, Loop::Steady::now());
+  if (safety_.lands_alone()) figures.faults.emplace_back("safety_lands_alone", 1);
+  if (main_threw_ > 0) figures.faults.emplace_back("main_threw", main_threw_);
+  figures.orders = {{"orders_refused", order_receiver_.refused()}};
+  if (const auto sensor = sensor_line_.figures())
+    figures.sensor = health_of(*sensor, HealthFigures::kMostSensor);
+  figures.drops = {{"stamps_ahead", listener_.ahead()},
+                   {"packets_dropped", board_.packets.dropped()},
+                   {"imu_dropped", board_.imu.dropped()},
+                   {"labelled_dropped", board_.labelled.dropped()},
+                   {"events_dropped", board_.events.dropped()}};
+  if (exchange_ != nullptr) figures.exchange = exchange_->figures();
+  figures.team = figures_;
+  return figures;
+}
+
 void Executive::say_health() {
   for (const std::string& line : order_receiver_.take_lines()) spdlog::warn(line);
   publish_mission(nullptr);
@@ -109,30 +123,7 @@ void Executive::say_health() {
     if (const auto health = loop->health()) message.loops.push_back(*health);
   }
   message.num_loops = static_cast<std::int32_t>(message.loops.size());
-  // Faults first: they are few, and where they are many the others give way.
-  for (const auto& [name, value] : LoopFaultLog::counters(loops_, Loop::Steady::now()))
-    message.counters.push_back(counter(name, value));
-  if (safety_.lands_alone()) message.counters.push_back(counter("safety_lands_alone", 1));
-  if (main_threw_ > 0) message.counters.push_back(counter("main_threw", main_threw_));
-  for (const counter_t& each : {counter("packets_dropped", board_.packets.dropped()),
-                                counter("imu_dropped", board_.imu.dropped()),
-                                counter("labelled_dropped", board_.labelled.dropped()),
-                                counter("events_dropped", board_.events.dropped()),
-                                counter("orders_refused", order_receiver_.refused())})
-    message.counters.push_back(each);
-  if (exchange_ != nullptr) {
-    for (const auto& [name, value] : exchange_->figures())
-      message.counters.push_back(counter(name, value));
-  }
-  for (const auto& [name, value] : figures_) message.counters.push_back(counter(name, value));
-  if (message.counters.size() > health_t::MAX_COUNTERS)
-    message.counters.resize(health_t::MAX_COUNTERS);
-  if (const auto sensor = sensor_line_.figures()) {
-    const int room =
-        std::max(0, health_t::MAX_COUNTERS - static_cast<int>(message.counters.size()));
-    for (const auto& [name, value] : health_of(*sensor, static_cast<std::size_t>(room)))
-      message.counters.push_back(counter(name, value));
-  }
+  message.counters = health_counters(health_figures());
   message.num_counters = static_cast<std::int32_t>(message.counters.size());
   bus_.publish(message);
 }

@@ -8,6 +8,8 @@ namespace saker::flight {
 namespace {
 
 constexpr Time kRepeat = kNanosecondsPerSecond / 5;  // of the last resort's command
+// As mission.landing_s: a landing that was agreed to and is not over by then is begun again.
+constexpr Time kLongestLanding = 60 * kNanosecondsPerSecond;
 
 }  // namespace
 
@@ -55,6 +57,7 @@ autonomy::SupervisorInput SafetyLoop::seen(Time now) {
   input.heard.lidar = board_.newest_scan;
   input.heard.odometry = board_.newest_registered;
   input.heard.guidance = board_.guided;
+  input.marked = board_.marked;
   while (auto ack = board_.acks.pop()) input.acks.push_back(std::move(*ack));
   input.has_targets = parts_.has_targets;
   input.land_ordered = parts_.land_ordered();
@@ -74,13 +77,22 @@ void SafetyLoop::obey(const autonomy::Mission::Output& output, Time now) {
   board_.mission_done = parts_.mission_done();
 }
 
+/// A flight controller answers an id that it knows from memory and does nothing: after a refusal
+/// the next command is another one.
 void SafetyLoop::land_alone(Time now) {
   board_.orders.put({autonomy::MissionOrders{}, anchors_, now});
+  while (const auto ack = board_.acks.pop()) {
+    if (ack->id == last_command_ && anew_ == kNever)
+      anew_ = ack->accepted ? now + kLongestLanding : now;
+  }
   const auto vehicle = board_.vehicle.latest();
   if (vehicle && !vehicle->armed) {
     board_.mission_done = true;
   } else if (now - commanded_ >= kRepeat) {
-    if (commanded_ == 0) ++last_command_;
+    if (commanded_ == 0 || now >= anew_) {
+      ++last_command_;
+      anew_ = kNever;
+    }
     commanded_ = now;
     bus_.publish(to_lcm(Command{.stamp = now, .id = last_command_, .kind = CommandKind::land}));
   }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 
 #include "flight/bus/bus.h"
 #include "flight/executive/blackboard.h"
@@ -22,12 +23,13 @@ struct SafetyParts {
 
 /// The loop of safety and mission, 50 Hz — reads ages and values from the blackboard, makes orders
 /// (for guidance, planning), commands (for the flight controller) and events. It waits for nobody
-/// but for who copies a small value, and in flight allocates nothing.
+/// but for who copies a small value, and in flight allocates nothing but the answer to an
+/// operator's order.
 ///
 /// Last resort: where its step throws kMostThrows times in a row (0.1 s, in which what was ordered
 /// holds), there is no mission any more. Setpoints end, so that the flight controller holds, and it
-/// is told to land, again and again until it says that it is disarmed; on the ground the flight
-/// ends. No way leads back.
+/// is told to land, again and again until it says that it is disarmed, after a refusal by a new
+/// command; on the ground the flight ends. No way leads back.
 class SafetyLoop {
  public:
   static constexpr int kMostThrows = 5;
@@ -52,7 +54,9 @@ class SafetyLoop {
   int throws_ = 0;  // in a row
   std::atomic<bool> lands_alone_ = false;
   std::int64_t last_command_ = 0;
+  static constexpr Time kNever = std::numeric_limits<Time>::max();
   Time commanded_ = 0;  // to land alone
+  Time anew_ = kNever;  // from when on by another command
 };
 
 }  // namespace saker::flight

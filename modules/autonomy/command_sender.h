@@ -31,6 +31,9 @@ class CommandSender {
   /// Replaces what was under way.
   void issue(CommandKind kind, double height_m, Time now);
 
+  /// Nothing is under way any more.
+  void cancel() { progress_ = CommandProgress::none; }
+
   /// Takes acknowledgements in; gives what is to be sent now.
   [[nodiscard]] std::optional<Command> step(Time now, std::span<const CommandAck> acks);
 

@@ -110,11 +110,13 @@ void Mission::preflight(const MissionInput& input) {
   if (input.land_ordered) {
     fail(Cause::ordered);
     go(MissionPhase::done, Cause::ordered, "ended before take-off");
-  } else if (clear_since_ != 0 && now_ - clear_since_ >= from_seconds(config_.settle_s)) {
+  } else if (input.marked && clear_since_ != 0 &&
+             now_ - clear_since_ >= from_seconds(config_.settle_s)) {
     go(MissionPhase::arming, Cause::ready, "all is there");
     commands_.issue(CommandKind::arm, NAN, now_);
   } else if (overdue(config_.preflight_s)) {
     fail(Cause::preflight_deadline);
+    if (faults.empty() && !input.marked) faults = "the flight could not be marked";
     go(MissionPhase::done, Cause::preflight_deadline, "no take-off: " + faults);
   }
 }

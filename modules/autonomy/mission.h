@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saker/autonomy/cause.h"
@@ -23,11 +24,12 @@
 ///                                        └──── hold ────┘      ▲
 ///                                               └──────────────┘
 ///
-/// Every wait has a deadline, and what happens then only goes to the right: a mission ends. A hold
-/// goes back to what it interrupted, at most `most_holds` times. Landing alone has no way out but
-/// the ground, or that vehicle and lidar are gone: at each deadline the command is given again, and
-/// said so. An operator's orders act as orders.h has them; while a pilot flies the phase is hold.
-/// Reads no clock.
+/// Every wait has a deadline, but one on the ground by order and one while a pilot flies, and what
+/// happens then only goes to the right: a mission ends. A hold goes back to what it interrupted, at
+/// most `most_holds` times; one by order returns after kOrderedHold_s. Landing alone has no way out
+/// but the ground, or that vehicle and lidar are gone: at each deadline the command is given again,
+/// and said so. An operator's orders act as orders.h has them; while a pilot flies the phase is
+/// hold. Reads no clock.
 namespace saker::autonomy {
 
 enum class MissionPhase { preflight, arming, takeoff, tour, return_home, hold, landing, done };
@@ -91,14 +93,15 @@ struct MissionInput {
   Time now = 0;
   VehicleState vehicle;
   VehicleOdometry odometry;
-  Acks acks;                      ///< since the last step
-  std::vector<Finding> findings;  ///< of safety, on the ground and while somebody else flies
-  SafetyDecision safety;          ///< in flight
-  PlanningReport planning;        ///< the newest
-  GuidanceStop stop;              ///< the last one
-  Time plant_heard = 0;           ///< the newest state of the vehicle, or scan
-  bool land_ordered = false;      ///< by a signal
-  std::vector<Order> orders;      ///< of an operator, since the last step
+  Acks acks;                          ///< since the last step
+  std::span<const Finding> findings;  ///< of safety, on the ground and while somebody else flies
+  SafetyDecision safety;              ///< in flight
+  PlanningReport planning;            ///< the newest
+  GuidanceStop stop;                  ///< the last one
+  Time plant_heard = 0;               ///< the newest state of the vehicle, or scan
+  bool land_ordered = false;          ///< by a signal
+  bool marked = true;                 ///< a restart would know of this flight: else it does not arm
+  std::vector<Order> orders;          ///< of an operator, since the last step
 };
 
 /// What holds from one step to the next.
@@ -147,14 +150,16 @@ class Mission {
   void obey_orders(const MissionInput& input);
   void reply(const Order& order, OrderState state, std::string text);
   void act(OrderAct act, const MissionInput& input);
+  [[nodiscard]] bool turns_off(OrderAct act, const MissionInput& input) const;
   void act_on_the_ground(OrderAct act, const MissionInput& input);
-  void recall(bool later);
+  void recall(bool later, Cause cause, core::Text text);
   [[nodiscard]] bool stays_on_the_ground(const MissionInput& input);
   [[nodiscard]] bool holds_above();
   [[nodiscard]] bool stays_held(const MissionInput& input);
   void run_own_time();
   [[nodiscard]] bool somebody_else_flies(const MissionInput& input);
   void hand_over();
+  void follow_motors_off();
   void begin_take_back(const Order& order, const MissionInput& input);
   void follow_take_back(const MissionInput& input);
   void regain();

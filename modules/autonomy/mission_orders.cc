@@ -46,6 +46,7 @@ Situation Mission::situation(const MissionInput& input) const {
 /// The one place at which orders act: at the end of a step, on what it came to.
 void Mission::obey_orders(const MissionInput& input) {
   follow_take_back(input);
+  follow_motors_off();
   for (const Order& order : input.orders) {
     if (const OrderReply* before = standing_.reply_to(order.id)) {
       out_.reply = *before;
@@ -56,8 +57,13 @@ void Mission::obey_orders(const MissionInput& input) {
       begin_take_back(order, input);
       continue;
     }
-    const bool refused = ruled.act == OrderAct::refuse;
-    reply(order, refused ? OrderState::refused : OrderState::accepted, ruled.text);
+    if (turns_off(ruled.act, input)) {
+      out_.reply = standing_.keep({order, OrderState::waiting, "turns the motors off"});
+      standing_.motors_off = OrderReply{order, OrderState::accepted, ruled.text};
+    } else {
+      const bool refused = ruled.act == OrderAct::refuse;
+      reply(order, refused ? OrderState::refused : OrderState::accepted, ruled.text);
+    }
     act(ruled.act, input);
   }
 }
@@ -86,19 +92,20 @@ void Mission::act(OrderAct act, const MissionInput& input) {
       [[fallthrough]];
     case OrderAct::hold_later:
       standing_.held = true;
+      standing_.held_since = now_;
       if (phase_ == MissionPhase::hold && standing_.since == 0) standing_.since = now_;
       return;
     case OrderAct::go_on:
       standing_.held = false;
       return;
     case OrderAct::tour_again:
-      if (outcome_ == Cause::ordered) outcome_ = Cause::landed;
+      if (outcome_ == Cause::ordered || outcome_ == Cause::hold_deadline) outcome_ = Cause::landed;
       standing_.recalled = false;
       return_begun_ = 0;
       return go(MissionPhase::tour, Cause::ordered, "goes on with its tour");
     case OrderAct::return_home:
     case OrderAct::return_later:
-      return recall(act == OrderAct::return_later);
+      return recall(act == OrderAct::return_later, Cause::ordered, "ordered to return");
     case OrderAct::land:
       fail(Cause::ordered);
       return land(Cause::ordered, "ordered to land");
@@ -108,29 +115,35 @@ void Mission::act(OrderAct act, const MissionInput& input) {
   }
 }
 
+/// Whether the order needs motors off that run, or may.
+bool Mission::turns_off(OrderAct act, const MissionInput& input) const {
+  const bool stays = act == OrderAct::keep || act == OrderAct::disarm || act == OrderAct::end;
+  return stays && (phase_ == MissionPhase::arming || input.vehicle.armed || standing_.motors_off);
+}
+
 void Mission::act_on_the_ground(OrderAct act, const MissionInput& input) {
-  const bool motors = phase_ == MissionPhase::arming || input.vehicle.armed;
+  const bool motors = turns_off(act, input);
   standing_.held = act != OrderAct::end;
   standing_.ending = act == OrderAct::end && motors;
   if (act == OrderAct::end) fail(Cause::ordered);
   if (motors) {
     commands_.issue(CommandKind::disarm, NAN, now_);
-    go(MissionPhase::preflight, Cause::ordered, "motors off");
+    go(MissionPhase::preflight, Cause::ordered, "turns the motors off");
   } else if (act == OrderAct::end) {
     go(MissionPhase::done, Cause::ordered, "ended before take-off");
   }
 }
 
-void Mission::recall(bool later) {
+void Mission::recall(bool later, Cause cause, core::Text text) {
   standing_.held = false;
   if (phase_ == MissionPhase::hold && interrupted_ == MissionPhase::return_home) return;
-  fail(Cause::ordered);
+  fail(cause);
   standing_.recalled = true;
   if (later) {
     interrupted_ = MissionPhase::return_home;
   } else {
     run_own_time();
-    go(MissionPhase::return_home, Cause::ordered, "ordered to return");
+    go(MissionPhase::return_home, cause, std::move(text));
   }
 }
 
@@ -154,7 +167,7 @@ bool Mission::holds_above() {
   if (!standing_.held) return false;
   interrupted_ = MissionPhase::tour;
   hold_cause_ = Cause::ordered;
-  standing_.since = now_;
+  standing_.since = standing_.held_since = now_;
   go(MissionPhase::hold, Cause::ordered, "at its height; holds until another order");
   return true;
 }
@@ -168,12 +181,18 @@ bool Mission::stays_held(const MissionInput& input) {
     standing_.regaining = false;
     if (!obeys) {
       standing_.held = true;
+      standing_.held_since = now_;
       say(Cause::command_deadline,
           fmt::format("no setpoint is obeyed after {:g} s; holds until another order", kRegain_s));
     }
   }
   const bool home = input.safety.action == SafetyAction::return_home;
-  if (standing_.held && !home) return true;
+  if (standing_.held && !home) {
+    if (now_ - standing_.held_since <= from_seconds(kOrderedHold_s)) return true;
+    recall(false, Cause::hold_deadline,
+           core::text("no other order for {:g} s; returns", kOrderedHold_s));
+    if (phase_ != MissionPhase::hold) return true;
+  }
   standing_.held = false;
   run_own_time();
   return false;
@@ -207,7 +226,10 @@ bool Mission::somebody_else_flies(const MissionInput& input) {
   return true;
 }
 
+/// What was commanded before is not repeated into a pilot's hands.
 void Mission::hand_over() {
+  commands_.cancel();
+  out_.command.reset();
   const bool climbs = phase_ == MissionPhase::takeoff;
   if (phase_ != MissionPhase::hold) interrupted_ = climbs ? MissionPhase::tour : phase_;
   if (standing_.since == 0) standing_.since = now_;
@@ -215,6 +237,20 @@ void Mission::hand_over() {
   standing_.regaining = false;
   go(MissionPhase::hold, Cause::taken_over,
      "somebody else flies: nothing that moves is sent until an operator resumes");
+}
+
+/// An order on the ground is answered by what the flight controller says to it.
+void Mission::follow_motors_off() {
+  const bool asks = commands_.kind() == CommandKind::disarm;
+  if (!standing_.motors_off || (asks && commands_.progress() == CommandProgress::waiting)) return;
+  const OrderReply off = *std::exchange(standing_.motors_off, std::nullopt);
+  if (!asks) {
+    reply(off.order, OrderState::refused, "another command took its place");
+  } else if (failed_command()) {
+    reply(off.order, OrderState::refused, command_text());
+  } else {
+    reply(off.order, off.state, off.text);
+  }
 }
 
 /// Where the ladder would land or hold at once, who flies keeps it; a landing goes on unless the

@@ -16,7 +16,8 @@ constexpr OrderRule kEnd = {end, "ends on the ground, motors off"};
 constexpr OrderRule kReturn = {return_home, "returns and lands there"};
 constexpr OrderRule kLand = {land, "lands where it is"};
 constexpr OrderRule kLandNow = {land_now, "stops and descends at once, to the ground"};
-constexpr OrderRule kHold = {hold, "stops, stays until another order or the safety ladder"};
+constexpr OrderRule kHold = {
+    hold, "stops, stays until another order or the safety ladder, 5 min at most"};
 constexpr OrderRule kLands = {refuse, "it lands; the ground is the only way out"};
 constexpr OrderRule kNotOurs = {refuse, "somebody else flies it: resume takes it back first"};
 constexpr OrderRule kOver = {refuse, "the mission is over"};
@@ -32,7 +33,7 @@ constexpr std::array<Row, kSituations> kTable = {{
       kEnd,
       kEnd}},
     // kept
-    {{{nothing, "stays on the ground until resume"},
+    {{{keep, "stays on the ground until resume"},
       {go_on, "takes off when nothing is missing"},
       kEnd,
       kEnd,
@@ -66,7 +67,7 @@ constexpr std::array<Row, kSituations> kTable = {{
     // recalled
     {{kHold, {tour_again, "goes on with its tour"}, {nothing, "returns already"}, kLand, kLandNow}},
     // held
-    {{{nothing, "holds already, until another order or the safety ladder"},
+    {{{hold_later, "holds already, until another order or the safety ladder, 5 min more at most"},
       {go_on, "goes on with what was interrupted"},
       kReturn,
       kLand,

@@ -19,13 +19,17 @@
 namespace saker::autonomy {
 
 enum class OrderKind : std::uint8_t {
-  hold,         ///< stop, and stay until another order, or until the ladder acts
+  hold,         ///< stop, and stay kOrderedHold_s, until another order, or until the ladder acts
   resume,       ///< go on with the mission, also after somebody else flew
   return_home,  ///< to above the place of take-off, and land
   land,         ///< where it is, after the place has been looked at where there is time for that
   abort,        ///< the fastest end that is safe: down at once; on the ground motors off
 };
 inline constexpr std::size_t kOrderKinds = 5;
+
+/// A hold by order lasts so long in flight, then it returns: the link may be gone and the battery
+/// unknown. A fifth of a battery's flight; whoever wants more orders it again.
+inline constexpr double kOrderedHold_s = 300;
 
 /// The word of the command line: hold, resume, return, land, abort.
 [[nodiscard]] const char* to_string(OrderKind kind);
@@ -112,7 +116,9 @@ struct StandingOrders {
   bool ending = false;      ///< on the ground: waits for motors off
   bool taken_over = false;  ///< somebody else flies, until an operator resumes
   bool regaining = false;   ///< resumed; setpoints are not obeyed yet
+  Time held_since = 0;      ///< in flight: the last order to hold
   Time since = 0;           ///< when the mission's own time stopped; 0: it runs
+  std::optional<OrderReply> motors_off;  ///< on the ground: to be said when they are
   std::optional<Order> taking_back;
   Time taken_back = 0;  ///< the flight controller agreed to `taking_back`; 0: not yet
   std::vector<OrderReply> replies;

@@ -113,12 +113,13 @@ class Safety {
 
   /// Everything that is wrong now, without memory: what keeps a vehicle on the ground.
   [[nodiscard]] std::vector<Finding> findings(const SafetyInput& input) const;
+  /// The same, added to `found`: allocates nothing where that has room.
+  void find(const SafetyInput& input, std::vector<Finding>& found) const;
 
   /// In flight, at every step; on the ground it forgets.
   [[nodiscard]] SafetyDecision update(const SafetyInput& input);
 
  private:
-  void find(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_silence(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_vehicle(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_place(const SafetyInput& input, std::vector<Finding>& found) const;

@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace saker::autonomy {
+namespace {
+
+constexpr std::size_t kMostFindings = 32;  // more than there are: room from the first step on
+
+}  // namespace
 
 Supervisor::Supervisor(const SafetyConfig& safety, const MissionConfig& mission,
                        const motion::Geofence& geofence)
@@ -32,9 +37,10 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
 }
 
 /// What keeps it there: the ladder's findings, and what only matters before the flight.
-std::vector<Finding> Supervisor::on_the_ground(const SupervisorInput& input,
-                                               const SafetyInput& seen) const {
-  std::vector<Finding> found = safety_.findings(seen);
+std::span<const Finding> Supervisor::on_the_ground(const SupervisorInput& input,
+                                                   const SafetyInput& seen) {
+  std::vector<Finding>& found = found_;
+  safety_.find(seen, found);
   if ((input.vehicle.faults & kTakenOver) != 0) {
     found.push_back({Cause::taken_over, SafetyAction::none, "somebody else has it: resume"});
   }
@@ -62,12 +68,16 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.stop = std::move(input.stop);
   mission.plant_heard = std::max(input.heard.vehicle, input.heard.lidar);
   mission.land_ordered = input.land_ordered;
+  mission.marked = input.marked;
   mission.orders = std::move(input.orders);
   mission.safety = safety_.update(seen);
+  found_.clear();
+  found_.reserve(kMostFindings);
   if (mission_.phase() == MissionPhase::preflight) {
     mission.findings = on_the_ground(input, seen);
   } else if (mission_.taken_over()) {
-    mission.findings = safety_.findings(seen);
+    safety_.find(seen, found_);
+    mission.findings = found_;
   }
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {

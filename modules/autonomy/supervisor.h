@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saker/autonomy/mission.h"
@@ -21,6 +22,7 @@ struct SupervisorInput {
   bool has_targets = false;          ///< or a geofence to sweep for them
   double classified_share = NAN;     ///< of the newest labelled scan
   bool land_ordered = false;
+  bool marked = true;         ///< a restart would know of this flight: else it does not arm
   std::vector<Order> orders;  ///< of an operator, since the last step; at any moment
 };
 
@@ -36,12 +38,13 @@ class Supervisor {
 
  private:
   [[nodiscard]] SafetyInput safety_input(const SupervisorInput& input) const;
-  [[nodiscard]] std::vector<Finding> on_the_ground(const SupervisorInput& input,
-                                                   const SafetyInput& seen) const;
+  [[nodiscard]] std::span<const Finding> on_the_ground(const SupervisorInput& input,
+                                                       const SafetyInput& seen);
 
   double height_m_;
   double least_classified_share_;
   Safety safety_;
+  std::vector<Finding> found_;  // of this step, for the mission; its memory is used again
   Mission mission_;
   Time planning_since_ = 0;  // when planning was last asked to begin; 0: it is not asked
 };

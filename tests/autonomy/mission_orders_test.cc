@@ -5,10 +5,13 @@
 namespace saker::autonomy {
 namespace {
 
-TEST_F(InFlight, HoldStaysUntilResumeHoweverLongAndTheMissionSucceeds) {
-  EXPECT_EQ(order(OrderKind::hold).state, OrderState::accepted);
-  EXPECT_EQ(phase(), MissionPhase::hold);
-  run(config.tour_s + 10);  // its deadline waits, too
+TEST_F(InFlight, HoldStaysUntilResumeAsLongAsItIsOrderedAgainAndTheMissionSucceeds) {
+  for (double held_s = 0; held_s <= config.tour_s; held_s += kOrderedHold_s) {
+    EXPECT_EQ(order(OrderKind::hold).state, OrderState::accepted);
+    EXPECT_EQ(phase(), MissionPhase::hold);
+    run(kOrderedHold_s - 1);
+  }
+  // Its deadline waits, too.
   EXPECT_EQ(orders, kHolds);
   EXPECT_EQ(order(OrderKind::resume).state, OrderState::accepted);
   run(0.1);
@@ -18,6 +21,26 @@ TEST_F(InFlight, HoldStaysUntilResumeHoweverLongAndTheMissionSucceeds) {
   come_home();
   ASSERT_TRUE(run_to(MissionPhase::done));
   EXPECT_TRUE(supervisor.mission().succeeded());
+}
+
+// Hazard: Orders and the radio | the link dies after an order to hold | returns after 5 min | –
+TEST_F(InFlight, AHoldThatNobodySaysAnythingToReturns) {
+  order(OrderKind::hold);
+  run(kOrderedHold_s - 1);
+  EXPECT_EQ(phase(), MissionPhase::hold);
+  ASSERT_TRUE(run_to(MissionPhase::return_home, 2));
+  EXPECT_EQ(outcome(), Cause::hold_deadline);
+  EXPECT_EQ(order(OrderKind::resume).state, OrderState::accepted);  // the link is back
+  EXPECT_EQ(phase(), MissionPhase::tour);
+  EXPECT_EQ(outcome(), Cause::landed);
+}
+
+TEST_F(InFlight, AHoldOnTheWayHomeThatNobodySaysAnythingToGoesOnHome) {
+  come_home();
+  planning.status = PlanningStatus::flying;
+  order(OrderKind::hold);
+  EXPECT_TRUE(run_to(MissionPhase::return_home, kOrderedHold_s + 1));
+  EXPECT_EQ(outcome(), Cause::landed);
 }
 
 TEST_F(InFlight, TheSameOrderOnceMoreIsTheSameAnswerAndNothingElse) {
@@ -191,6 +214,50 @@ TEST_F(Orders, WhileItArmsAnAbortTurnsTheMotorsOffBeforeItEnds) {
   ASSERT_TRUE(run_to(MissionPhase::done, 1));
   EXPECT_FALSE(armed);
   EXPECT_EQ(sent(CommandKind::takeoff), 0);
+}
+
+TEST_F(Orders, WhileItArmsAHoldIsAgreedToWhenTheMotorsAreOff) {
+  answers = false;
+  ASSERT_TRUE(run_to(MissionPhase::arming));
+  armed = true;
+  EXPECT_EQ(order(OrderKind::hold).state, OrderState::waiting);
+  run(1);
+  EXPECT_EQ(reply.state, OrderState::waiting);
+  EXPECT_TRUE(armed);
+  answers = true;
+  run(0.5);
+  EXPECT_EQ(reply.state, OrderState::accepted);
+  EXPECT_EQ(reply.text, "motors off, stays on the ground until resume");
+  EXPECT_FALSE(armed);
+}
+
+// Hazard: Orders and the radio | an order on the ground, the motors do not go off | refused with
+//   the cause; the next order tries again | –
+TEST_F(Orders, WhereTheMotorsDoNotGoOffTheOrderIsRefusedAndTheNextOneTriesAgain) {
+  answers = false;
+  ASSERT_TRUE(run_to(MissionPhase::arming));
+  armed = true;
+  order(OrderKind::hold);
+  run(config.command.deadline_s + 0.1);
+  EXPECT_EQ(reply.state, OrderState::refused);
+  EXPECT_EQ(reply.text, "disarm: no answer for 3 s");
+  EXPECT_EQ(order(OrderKind::hold).state, OrderState::waiting);
+  answers = true;
+  run(0.5);
+  EXPECT_EQ(reply.state, OrderState::accepted);
+  EXPECT_FALSE(armed);
+}
+
+TEST_F(Orders, WhileTheMotorsMayRunAnAbortWaitsForThem) {
+  answers = false;
+  ASSERT_TRUE(run_to(MissionPhase::arming));
+  order(OrderKind::hold);
+  EXPECT_EQ(order(OrderKind::abort).state, OrderState::waiting);
+  run(1);
+  EXPECT_EQ(phase(), MissionPhase::preflight);
+  answers = true;
+  ASSERT_TRUE(run_to(MissionPhase::done, 1));
+  EXPECT_EQ(reply.state, OrderState::accepted);
 }
 
 TEST_F(Orders, WhileItArmsAHoldTurnsTheMotorsOffAndResumeArmsAnew) {

@@ -20,6 +20,25 @@ TEST_F(InFlight, WhoTookOverHasItAndNothingThatMovesIsSentHoweverLong) {
   EXPECT_EQ(phase(), MissionPhase::hold);
 }
 
+// Hazard: Vehicle | a pilot takes over while a command is repeated | it is repeated no more | –
+TEST_F(InFlight, ACommandThatWaitsForItsAnswerIsNotRepeatedToWhoTookOver) {
+  answers = false;
+  order(OrderKind::land);
+  run(1);
+  EXPECT_GT(sent(CommandKind::land), 2);
+  for (const long sent_so_far = sent(CommandKind::land); sent(CommandKind::land) == sent_so_far;)
+    run(0.02);
+  const std::size_t before = commands.size();
+  run(0.18);
+  ASSERT_EQ(commands.size(), before);
+  take_over();  // in the step of the next one
+  run(5);
+  EXPECT_EQ(commands.size(), before);
+  answers = true;
+  order(OrderKind::resume);
+  EXPECT_TRUE(run_to(MissionPhase::landing, 1));
+}
+
 TEST_F(InFlight, ThatNobodySaysAnyMoreThatSomebodyElseFliesGivesNothingBack) {
   take_over();
   taken_over = false;  // the bridge began anew

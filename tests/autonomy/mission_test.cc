@@ -38,6 +38,7 @@ class MissionTest : public testing::Test {
     if (!plant_gone) plant_heard = now;
     input.plant_heard = plant_heard;
     input.land_ordered = land_ordered;
+    input.marked = marked;
     const Mission::Output output = mission.step(input);
     orders = output.orders;
     anchored += output.anchor;
@@ -74,7 +75,7 @@ class MissionTest : public testing::Test {
   Mission mission{config};
   Time now = kNanosecondsPerSecond;
   bool armed = false, climbs = false, descends = false;
-  bool vehicle_answers = true, can_climb = true, land_ordered = false;
+  bool vehicle_answers = true, can_climb = true, land_ordered = false, marked = true;
   std::optional<CommandKind> refused_kind;
   double height = 0;
   std::vector<CommandAck> acks;
@@ -130,6 +131,25 @@ TEST_F(MissionTest, StaysOnTheGroundWhileSomethingIsMissing) {
   EXPECT_TRUE(commands.empty());
   EXPECT_EQ(events.back().text, "no take-off: lidar_silent: no scan yet");
   EXPECT_EQ(events.size(), 2u);  // said once, and the end
+}
+
+TEST_F(MissionTest, DoesNotArmBeforeTheFlightIsMarked) {
+  marked = false;
+  fly(config.preflight_s - 5);
+  EXPECT_EQ(mission.phase(), MissionPhase::preflight);
+  EXPECT_TRUE(said(Cause::ready));  // whereupon it is marked
+  marked = true;
+  ASSERT_TRUE(fly_to(MissionPhase::arming, 0.1));
+}
+
+// Hazard: Stages and links | a flight cannot be marked, so that a restart in the air would not know
+//   of it | it does not arm | –
+TEST_F(MissionTest, AFlightThatCannotBeMarkedIsNone) {
+  marked = false;
+  ASSERT_TRUE(fly_to(MissionPhase::done, config.preflight_s + 1));
+  EXPECT_TRUE(commands.empty());
+  EXPECT_EQ(mission.outcome(), Cause::preflight_deadline);
+  EXPECT_EQ(events.back().text, "no take-off: the flight could not be marked");
 }
 
 TEST_F(MissionTest, WaitsUntilNothingHasBeenMissingForAWhile) {

@@ -13,14 +13,14 @@ using enum OrderAct;
 /// What docs/flying.md promises, cell for cell: hold, resume, return, land, abort.
 constexpr std::array<std::pair<Situation, Row>, kSituations> kPromised = {{
     {Situation::preflight, {keep, nothing, end, end, end}},
-    {Situation::kept, {nothing, go_on, end, end, end}},
+    {Situation::kept, {keep, go_on, end, end, end}},
     {Situation::not_ours, {keep, take_back, end, end, end}},
     {Situation::arming, {disarm, nothing, end, end, end}},
     {Situation::takeoff, {hold_later, go_on, land, land, land_now}},
     {Situation::tour, {hold, nothing, return_home, land, land_now}},
     {Situation::returning, {hold, refuse, nothing, land, land_now}},
     {Situation::recalled, {hold, tour_again, nothing, land, land_now}},
-    {Situation::held, {nothing, go_on, return_home, land, land_now}},
+    {Situation::held, {hold_later, go_on, return_home, land, land_now}},
     {Situation::waiting, {hold_later, go_on, return_later, land, land_now}},
     {Situation::landing, {refuse, refuse, refuse, nothing, land_now}},
     {Situation::taken_over, {refuse, take_back, refuse, refuse, refuse}},

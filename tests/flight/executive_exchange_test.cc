@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "flight/bus/exchange_messages.h"
+#include "flight/executive/health_counters.h"
 #include "flight/executive/robot_exchange.h"
 #include "saker/core/error.h"
 #include "saker/core/files.h"
@@ -210,7 +211,8 @@ TEST_F(ARobotsExchange, WhatAnotherRobotSaidIsKeptForTheNextFlight) {
 TEST_F(ARobotsExchange, ItsFiguresFitIntoHealth) {
   RobotExchange robot(config, network());
   EXPECT_TRUE(run(robot, [&] { return !robot.figures().empty(); }));
-  constexpr std::size_t kOthers = 8;  // the executive's own, and the briefing's
+  // Orders, the sensor's, and the briefing's.
+  constexpr std::size_t kOthers = 1 + HealthFigures::kMostSensor + 3;
   EXPECT_LE(robot.figures().size() + kOthers, static_cast<std::size_t>(health_t::MAX_COUNTERS));
   for (const auto& [name, value] : robot.figures())
     EXPECT_LE(name.size(), static_cast<std::size_t>(counter_t::MAX_NAME)) << name;

@@ -87,11 +87,15 @@ class ExecutiveSafety : public ExecutiveFlying {
   autonomy::Mission::Output step(const autonomy::SupervisorInput& input) {
     ++steps;
     land_ordered = input.land_ordered;
+    marked = input.marked;
     if (throws) throw std::bad_alloc();
     autonomy::Mission::Output output;
     output.orders = {GuidanceOrder::follow, PlanningOrder::tour};
     output.command = Command{.stamp = input.now, .id = 7, .kind = CommandKind::takeoff};
     return output;
+  }
+  void answer(std::int64_t id, bool accepted) {
+    board.acks.push({board.clock.now(), id, accepted, accepted ? "" : "not now"});
   }
   /// Runs of the loop at its rate, which go on whatever is thrown.
   void run(int runs) {
@@ -106,7 +110,7 @@ class ExecutiveSafety : public ExecutiveFlying {
     }
   }
 
-  bool throws = false, land_ordered = false, signalled = false;
+  bool throws = false, land_ordered = false, signalled = false, marked = true;
   int steps = 0, thrown = 0;
   SafetyLoop loop{{.step = [this](autonomy::SupervisorInput input) { return step(input); },
                    .mission_done = [] { return false; },
@@ -144,12 +148,32 @@ TEST_F(ExecutiveSafety, LandsWithoutTheMissionWhereItThrowsAgainAndAgain) {
   EXPECT_LE(commands.size(), 4U);
   for (const command_t& command : commands) {
     EXPECT_EQ(command.kind, static_cast<int>(CommandKind::land));
-    EXPECT_EQ(command.id, 8);  // a new one, the same each time
+    EXPECT_EQ(command.id, 8);  // a new one, the same until it is answered
   }
   EXPECT_FALSE(board.mission_done);
   say_vehicle(false);
   run(1);
   EXPECT_TRUE(board.mission_done);
+}
+
+// Hazard: Stages and links | safety throws again and again, and the landing is refused | it is told
+//   to land by a new command | –
+TEST_F(ExecutiveSafety, LandingAloneARefusedCommandIsFollowedByAnotherOneAnAgreedOneIsNot) {
+  run(1);
+  throws = true;
+  run(SafetyLoop::kMostThrows + 1);
+  commands.clear();
+  answer(8, false);
+  answer(8, false);  // the repeat, from memory
+  run(25);
+  ASSERT_GE(commands.size(), 2U);
+  for (const command_t& command : commands) EXPECT_EQ(command.id, 9);
+  commands.clear();
+  answer(8, false);  // late
+  answer(9, true);
+  run(25);
+  ASSERT_GE(commands.size(), 2U);
+  for (const command_t& command : commands) EXPECT_EQ(command.id, 9);
 }
 
 TEST_F(ExecutiveSafety, OnTheGroundItEndsWhereItThrowsAgainAndAgain) {
@@ -166,6 +190,14 @@ TEST_F(ExecutiveSafety, ASignalIsHeardWhateverElseHangs) {
   signalled = true;
   run(1);
   EXPECT_TRUE(land_ordered);
+}
+
+TEST_F(ExecutiveSafety, TheMissionKnowsWhetherTheFlightIsMarked) {
+  run(1);
+  EXPECT_FALSE(marked);
+  board.marked = true;
+  run(1);
+  EXPECT_TRUE(marked);
 }
 
 class ExecutiveGuidance : public ExecutiveFlying {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "flight/executive/loop.h"
+#include "flight/executive/stage_timings.h"
 
 namespace saker::flight {
 namespace {
@@ -140,6 +141,21 @@ TEST(ExecutiveLoop, IsNotWaitedForLongerThanItIsGiven) {
   held = false;
   EXPECT_TRUE(loop.stop());
   EXPECT_FALSE(loop.running());
+}
+
+/// The real-time stage and the ordinary ones have no lock in common, and one table.
+TEST(ExecutiveLoop, TimesOfIngestionAreApartAndInTheSameTable) {
+  StageTimings timings;
+  timings.ordinary.add("planning", 0.002, 0.001);
+  timings.ingestion.add("odometry", 0.004, 0.003);
+  timings.ordinary.add("segmentation", 0.001, 0.001);
+  EXPECT_EQ(timings.ordinary.rows().size(), 2u);
+  EXPECT_EQ(timings.ingestion.rows().size(), 1u);
+  EXPECT_EQ(timings.csv(),
+            "stage,n,median_ms,p95_ms,max_ms,cpu_s\n"
+            "odometry,1,4.000,4.000,4.000,0.003\n"
+            "segmentation,1,1.000,1.000,1.000,0.001\n"
+            "planning,1,2.000,2.000,2.000,0.001\n");
 }
 
 }  // namespace

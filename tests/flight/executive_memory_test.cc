@@ -54,6 +54,7 @@ class ExecutiveMemory : public testing::Test {
       network_missing = true;
       return;
     }
+    board.marked = true;
     safety.emplace(SafetyParts{.step =
                                    [this](autonomy::SupervisorInput input) {
                                      auto output = supervisor.step(std::move(input));
@@ -202,6 +203,18 @@ TEST_F(ExecutiveMemory, NothingIsAllocatedFromTheTourToTheGround) {
   fly(0.5);
   EXPECT_EQ(phase(), MissionPhase::done);
   EXPECT_GT(events.size(), 7U);
+}
+
+TEST_F(ExecutiveMemory, NothingIsAllocatedWhileSomebodyElseFliesAndMuchIsWrong) {
+  ASSERT_TRUE(fly_to(MissionPhase::tour));
+  fly(1);
+  allocated = 0;
+  vehicle.faults = kTakenOver;
+  checker_hangs = true;
+  battery = 0.1;
+  fly(2);
+  EXPECT_TRUE(supervisor.mission().taken_over());
+  EXPECT_EQ(allocated, 0);
 }
 
 TEST_F(ExecutiveMemory, NothingIsAllocatedOnTheWayUp) {

@@ -10,6 +10,8 @@ namespace {
 
 using autonomy::Order;
 using autonomy::OrderKind;
+using autonomy::OrderReply;
+using autonomy::OrderState;
 using std::chrono::milliseconds;
 
 class AnExecutive : public testing::Test {
@@ -21,7 +23,7 @@ class AnExecutive : public testing::Test {
     sealer.emplace(key, "GROUND", folder / "counter");
   }
 
-  void begin() { receiver.emplace(config, bus, queue); }
+  void begin() { receiver.emplace(config, bus, queue, replies); }
 
   void hear(const order_t& message, const std::string& robot = "R1") {
     bus.publish_as(robot, message);
@@ -43,6 +45,7 @@ class AnExecutive : public testing::Test {
   std::optional<exchange::Sealer> sealer;
   Bus bus = Bus::in_memory("R1");
   BoundedQueue<Order> queue{16};
+  Mailbox<OrderReply> replies;
   std::optional<OrderReceiver> receiver;
 };
 
@@ -83,7 +86,8 @@ TEST_F(AnExecutive, RefusesALateOneAndOneOfBeforeItBegan) {
   begin();
   hear(said(7, OrderKind::abort, 2.5));
   EXPECT_EQ(line(),
-            "an order is refused: held back, or sealed by another clock (GROUND), 2.5 s ago");
+            "an order is refused: held back, or sealed by another clock (GROUND): the robot's is "
+            "2.5 s ahead");
   hear(earlier);
   EXPECT_EQ(line().substr(0, 33), "an order is refused: held back, o");
   EXPECT_EQ(queue.size(), 0u);
@@ -97,6 +101,46 @@ TEST_F(AnExecutive, RefusesACopyOfAnOrderThatItsSenderHasOvertaken) {
   hear(copy);
   EXPECT_EQ(queue.take_all(), (std::vector<Order>{{7, OrderKind::hold}, {8, OrderKind::resume}}));
   EXPECT_EQ(line(), "an order is refused: overtaken by a later order of its sender (GROUND)");
+}
+
+// Hazard: Orders and the radio | the clocks of robot and ground differ | each order is refused with
+//   their difference, where it was given | –
+TEST_F(AnExecutive, AnswersALateOrderWithTheDifferenceOfTheClocks) {
+  begin();
+  hear(said(7, OrderKind::land, 3.2));
+  const std::string why = "held back, or sealed by another clock: the robot's is 3.2 s ";
+  ASSERT_NE(replies.latest(), nullptr);
+  EXPECT_EQ(*replies.latest(),
+            (OrderReply{{7, OrderKind::land}, OrderState::refused, why + "ahead"}));
+  hear(said(8, OrderKind::abort, -3.2));
+  EXPECT_EQ(*replies.latest(),
+            (OrderReply{{8, OrderKind::abort}, OrderState::refused, why + "behind"}));
+}
+
+TEST_F(AnExecutive, AnswersAnOvertakenOrderAndOneOfBeforeItBegan) {
+  const order_t earlier = said(6);
+  begin();
+  hear(earlier);
+  ASSERT_NE(replies.latest(), nullptr);
+  EXPECT_EQ(replies.latest()->text,
+            "held back, or sealed by another clock: it is older than this process");
+  hear(said(9));
+  hear(said(8));
+  EXPECT_EQ(replies.latest()->order.id, 8);
+  EXPECT_EQ(replies.latest()->text, "overtaken by a later order of its sender");
+}
+
+TEST_F(AnExecutive, WhoHasNoKeyAndACopyOfAnOrderThatWasTakenGetNoAnswer) {
+  begin();
+  const order_t message = said(7);
+  hear(message);
+  hear(message);
+  order_t forged = said(8);
+  forged.data.back() ^= 1;
+  hear(forged);
+  hear(said(7, OrderKind::hold, 2.5));  // sealed before the one that was taken
+  EXPECT_EQ(receiver->refused(), 3);
+  EXPECT_EQ(replies.latest(), nullptr);
 }
 
 TEST_F(AnExecutive, TwoWhoOrderDoNotOvertakeEachOther) {

@@ -65,6 +65,13 @@ class Fault(unittest.TestCase):
         self.settles(flight, begin)
         self.says(flight, "saker-flight", "hold: checker_silent: no verdict for")
 
+    def test_not_marked(self):
+        """Nothing would keep a restart from beginning a mission in the air: it does not arm."""
+        flight = self.fly(settings=("mission.preflight_s=15",), environment={"RUNTIME_DIRECTORY": "/nowhere"})
+        self.assertEqual(flight.processes["saker-flight"].wait(timeout=60), 1, flight.logs())
+        self.says(flight, "saker-flight", "no take-off: the flight could not be marked")
+        self.assertFalse(any(row.armed for row in flight.rows()))
+
     def test_simulator_killed(self):
         """The plant itself is gone: the executive says so, saves its map and ends."""
         flight = self.fly()
