@@ -31,11 +31,11 @@ counter_t counter(const std::string& name, long value) {
 }  // namespace
 
 BaseStation::BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& bus,
-                         const LinkEnd* link)
+                         LinkReports link)
     : config_(core::checked(config.base, "base")),
       store_(store),
       bus_(bus),
-      link_(link),
+      link_(std::move(link)),
       exchange_(config.exchange.link, bus.robot(), exchange::read_key(config.exchange.key_file),
                 config_.folder, store) {
   bus_.subscribe_all<exchange_t>(
@@ -119,7 +119,7 @@ void BaseStation::look_at_contacts(Time now) {
 
 void BaseStation::say_totals() const {
   const exchange::Exchange::Counters exchanged = exchange_.counters();
-  const LinkEnd::Counters linked = link_ != nullptr ? link_->counters() : LinkEnd::Counters{};
+  const LinkEnd::Counters linked = link_ ? link_().counters : LinkEnd::Counters{};
   spdlog::info("exchange: sent {} bytes, received {}; link: {} messages up, {} down, {} refused",
                exchanged.sent_bytes, exchanged.received_bytes, linked.in_messages,
                linked.out_messages, linked.refused.all());
@@ -136,8 +136,8 @@ void BaseStation::say_health() {
   health.counters.push_back(counter("store_bytes", store_.file_bytes()));
   health.counters.push_back(counter("store_full", store_.full()));
   health.counters.push_back(counter("robots_refused", crowded_));
-  if (link_ != nullptr) {
-    for (const auto& [name, value] : flight::health(*link_))
+  if (link_) {
+    for (const auto& [name, value] : flight::health(link_()))
       health.counters.push_back(counter(name, value));
   }
   health.num_counters = static_cast<std::int32_t>(health.counters.size());

@@ -21,8 +21,9 @@ constexpr const char* kRole = "saker-link";
 constexpr std::chrono::milliseconds kHealthPeriod{1000};
 
 health_t health_of(const LinkEnd& end, LoopMeter& meter) {
-  const LinkEnd::Counters counters = end.counters();
-  auto figures = health(end);
+  const LinkEnd::Report report = end.report();
+  const LinkEnd::Counters& counters = report.counters;
+  auto figures = health(report);
   figures.emplace_back("link_unsealed", counters.refused.unsealed);
   figures.emplace_back("link_replayed", counters.refused.replayed);
   figures.emplace_back("link_strangers", counters.refused.strangers);
@@ -63,6 +64,7 @@ void serve(Bus& bus, Presence& presence, Radio& radio, Service service) {
     if (presence.outranked()) throw Error(presence.other());
   }
   service.stopping();
+  radio.end().say_goodbye();
 }
 
 int run(const ProcessOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,7 +13,7 @@ struct Address {
   std::uint32_t ip = 0;  ///< IPv4, the first number in the upper byte
   std::uint16_t port = 0;
 
-  bool operator==(const Address&) const = default;
+  auto operator<=>(const Address&) const = default;
 };
 
 [[nodiscard]] std::string to_string(const Address& address);

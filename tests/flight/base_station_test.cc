@@ -60,7 +60,7 @@ class ABaseStation : public testing::Test {
     store.emplace(store_file(config.base), 100);
     link.emplace(config.link, LinkEnd::End::ground, key, robots, 2,
                  [](const Address&, std::string_view) { return true; });
-    base.emplace(config, *store, robots, &*link);
+    base.emplace(config, *store, robots, [this] { return link->report(); });
     robots.subscribe<health_t>([this](const health_t& message) {
       health = message;
       return true;

@@ -1,10 +1,12 @@
 """The sealed link between a robot's machine and the ground's by real processes, and three attackers on the radio between."""
 
+import os
 import random
 import shutil
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import radio_world
 from base_processes import BIN
@@ -40,6 +42,22 @@ class Link(RadioTest):
         for suffix in MOVING:
             self.say(None, f"R1{suffix}", "bad0")
         self.assertEqual(self.heard(listener), [("R1_ORDER", "0bde00000000")])
+
+    # Hazard: Orders and the radio | the base's disk stalls | orders and telemetry pass as before | –
+    def test_a_disk_that_stalls_at_the_base_holds_up_no_order(self):
+        stall = self.folder / "stall"
+        with unittest.mock.patch.dict(os.environ, LD_PRELOAD=os.environ["STALLED_CALLS"], SAKER_STALL=str(stall)):
+            self.start_ground()
+        self.start_link()
+        self.wait(lambda: "R1 is there" in self.log("base"), 20, "link")
+        stall.write_text("sync saker-base")
+        self.start("R1", *self.robot.inside, BIN / "exchange_robot", "R1", self.robot_key, self.folder / "R1", 30_000, 0)
+        time.sleep(5)  # longer than link.lost_s
+        self.assertEqual(self.stored_bytes("R1"), 0, "its disk stalls")
+        listener = self.listen(self.robot, 3, "_ORDER")
+        self.say(None, "R1_ORDER", "0bde")
+        self.assertEqual(self.heard(listener), [("R1_ORDER", "0bde00000000")])
+        self.assertNotIn("is gone", self.log("base") + self.log("link"))
 
     def test_a_robot_exchanges_over_the_link(self):
         self.connect()
