@@ -86,7 +86,7 @@ class Link(RadioTest):
         self.stop(link)
         old_key = self.folder / "old.key"
         shutil.copy2(self.robot_key, old_key)
-        self.make_robot_key("--renew")
+        self.make_robot_key("--renew", "--force")
         self.stop(base)
         (self.folder / "base.log").write_text("")
         self.start_ground()
