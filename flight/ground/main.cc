@@ -98,8 +98,8 @@ int show_live(const ProcessConfig& config, viewers::Site site, const std::string
                     orders, recording ? &*recording : nullptr);
   if (fs::exists(config.exchange.key_file)) {
     fs::create_directories(config.ground.folder);
-    orders.send_by(std::make_unique<TeamOrderLine>(
-        source.bus(), exchange::read_key(config.exchange.key_file), name, config.ground.folder));
+    orders.send_by(std::make_unique<TeamOrderLine>(source.bus(), config.exchange.key_file, name,
+                                                   config.ground.folder));
   } else {
     spdlog::info("no key of a team at {}: orders are refused", config.exchange.key_file);
   }

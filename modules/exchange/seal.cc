@@ -125,6 +125,10 @@ std::optional<std::string> Sealer::seal(const std::string& channel, std::string_
   return sealed;
 }
 
+Opened Sealer::opened(const std::string& channel, std::string_view sealed) const {
+  return unsealed(key_, "", channel, sealed);
+}
+
 Opened unsealed(const Key& key, const std::string& own, const std::string& channel,
                 std::string_view sealed) {
   ByteReader in(sealed);
