@@ -123,10 +123,11 @@ Credentials credentials(const fs::path& folder, const std::string& address) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   Credentials result{.key = {},
+                     .key_file = folder / "address.key",
                      .certificate = folder / ("certificate-" + address + ".pem"),
                      .private_key = folder / ("private-key-" + address + ".pem"),
                      .fingerprint = {}};
-  const fs::path key_file = folder / "address.key";
+  const fs::path& key_file = result.key_file;
   if (!fs::exists(key_file)) {
     const File file = open_secret(key_file);
     std::fputs((drawn_key() + "\n").c_str(), file.get());
