@@ -17,6 +17,7 @@ constexpr milliseconds kCallPeriod{200};   // of a robot that hears no ground
 constexpr milliseconds kAnswerPeriod{20};  // at least, to one life at one address
 constexpr std::size_t kMostAnswered = 64;  // lives and addresses that are remembered
 constexpr std::chrono::seconds kWarnPeriod{60};
+constexpr double kHellosUntilLost = 2.5;  // one may be lost, and one come late
 // What this end said comes back within milliseconds; the same bytes later are said anew.
 constexpr std::chrono::seconds kEchoAge{1};
 constexpr std::size_t kMostSaid = 512;  // of a channel: more than one step may publish
@@ -43,12 +44,17 @@ void check(const char* way, const std::vector<LinkedChannel>& channels) {
     if (down ? !kForRobots.contains(channel) : kStay.contains(channel))
       throw Error(where + " must not pass to " + (down ? "a robot" : "the ground"));
     if (!named.insert(channel).second) throw Error(where + " is named twice");
+    if (channel == "_ORDER" && keep < 2)
+      throw Error(where + ": keep 1, expected 2 or more: each order counts");
   }
 }
 
 LinkConfig checked_config(const LinkConfig& config) {
   check("up", config.up);
   check("down", config.down);
+  if (config.lost_s < kHellosUntilLost * config.hello_s)
+    throw Error(fmt::format("link.lost_s {}, expected {} times link.hello_s or more", config.lost_s,
+                            kHellosUntilLost));
   return core::checked(config, "link");
 }
 

@@ -76,6 +76,9 @@ int run(const ProcessOptions& options) {
     return 0;
   }
   require_on_machine("bus.control_url", config.bus.control_url);
+  if (is_own(address_of("link.ground", config.link.ground)))
+    throw Error("link.ground " + config.link.ground +
+                " is this machine: its LCM would hear late what it said before");
   const exchange::Key key = exchange::read_key(config.exchange.key_file);
   Bus bus = Bus::on_network(config.bus.control_url, config.bus.receive_buffer_kb, options.robot);
   Presence presence(bus, kRole);

@@ -21,6 +21,9 @@ struct Address {
 /// Of "192.168.8.1:7670". Throws Error that names the setting on anything else.
 [[nodiscard]] Address address_of(const std::string& key, const std::string& text);
 
+/// Whether it is this machine's own.
+[[nodiscard]] bool is_own(const Address& address);
+
 /// Plain UDP, without waiting.
 class UdpSocket {
  public:

@@ -316,6 +316,28 @@ TEST(LinkConfiguration, WhatIsNoChannelOrNamedTwiceIsRefused) {
   }
 }
 
+TEST(LinkConfiguration, AnOrderThatAnotherWouldReplaceIsRefused) {
+  LinkConfig config;
+  config.down.front().keep = 1;
+  EXPECT_EQ(refusal(config, LinkEnd::End::ground),
+            "link.down: channel _ORDER: keep 1, expected 2 or more: each order counts");
+}
+
+TEST(LinkConfiguration, ASilenceOfOneLostHelloIsNoLossOfTheLink) {
+  LinkConfig config;
+  config.lost_s = 2;
+  EXPECT_EQ(refusal(config, LinkEnd::End::ground),
+            "link.lost_s 2, expected 2.5 times link.hello_s or more");
+  config.hello_s = 0.8;
+  EXPECT_EQ(refusal(config, LinkEnd::End::ground), "");
+}
+
+TEST(LinkConfiguration, KnowsTheAddressesOfThisMachine) {
+  for (const char* own : {"127.0.0.1:7670", "127.8.0.1:7670", "0.0.0.0:7670"})
+    EXPECT_TRUE(is_own(address_of("link.ground", own))) << own;
+  EXPECT_FALSE(is_own(address_of("link.ground", "203.0.113.1:7670")));
+}
+
 TEST(LinkConfiguration, AnAddressThatIsNoneIsRefused) {
   for (const char* ground : {"", "base", "10.0.0.1", "10.0.0.1:", "10.0.0.1:0", "10.0.0.1:70000",
                              "10.0.0.1:7670x", "10.0.0:7670", ":7670"}) {

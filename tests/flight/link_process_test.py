@@ -112,6 +112,8 @@ class Link(RadioTest):
         ground, key = f"link.ground={GROUND}:{PORT}", f"exchange.key_file={self.robot_key}"
         self.assertIn("tells the ground nothing", refusal(key, status=0))
         self.assertIn("expected ADDRESS:PORT", refusal("link.ground=base", key))
+        for own in (ROBOT, "127.0.0.1"):
+            self.assertIn("is this machine", refusal(f"link.ground={own}:{PORT}", key))
         self.assertIn("none.key", refusal(ground, "exchange.key_file=none.key"))
         self.assertIn("expected ttl=0", refusal(ground, key, "bus.control_url=udpm://239.255.76.67:7667?ttl=1"))
         run = subprocess.run([*self.robot.inside, BIN / "saker-link", "--robot", "R2", "--set", ground, "--set", key],
