@@ -13,6 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+static_assert(BaseConfig::kMostRobots <= static_cast<int>(exchange::kMostSenders));
 constexpr milliseconds kStepPeriod{20};    // of the exchange, as exchange.h asks for
 constexpr milliseconds kLookPeriod{5000};  // at contacts: each costs the disk a write
 constexpr milliseconds kHealthPeriod{1000};
@@ -56,9 +57,17 @@ void BaseStation::warn_of_earlier(const std::string& robot) {
   if (!warned_.insert(robot).second) return;
   spdlog::warn(
       "{} lost its epoch and its clock is behind, or there are two: set the clock, or renew its "
-      "key "
-      "(saker base key --robot {} --renew)",
+      "key (saker base key --robot {} --renew)",
       robot, robot);
+}
+
+/// Once of each robot that calls.
+void BaseStation::warn_of_full(const std::string& robot) {
+  if (!warned_.insert(robot).second) return;
+  spdlog::warn(
+      "{} is refused: {} names were heard here, no more are kept; without robots in the air: stop "
+      "saker-base, remove {}/heard.windows",
+      robot, exchange::kMostSenders, config_.folder);
 }
 
 /// A robot's first message is its ticket: only what the team's key sealed makes a link. Its content
@@ -66,6 +75,8 @@ void BaseStation::warn_of_earlier(const std::string& robot) {
 bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
   const exchange::Opened first = exchange_.opener().open(channel, datagram_of(message));
   if (first.verdict == exchange::Verdict::superseded) warn_of_earlier(robot_of(channel));
+  if (first.verdict == exchange::Verdict::unknown && exchange_.opener().full())
+    warn_of_full(robot_of(channel));
   if (first.verdict != exchange::Verdict::genuine || first.sender != robot_of(channel))
     return false;
   if (visits_.size() >= static_cast<std::size_t>(config_.most_robots)) {

@@ -52,6 +52,7 @@ class BaseStation {
   bool hear(const std::string& robot, const exchange_t& message);
   [[nodiscard]] bool admit(const std::string& channel, const exchange_t& message);
   void warn_of_earlier(const std::string& robot);
+  void warn_of_full(const std::string& robot);
   void send(Time now);
   void look_at_contacts(Time now);
   void say_health();

@@ -34,6 +34,8 @@ namespace saker::exchange {
 /// A sealed message is longer than its payload by this at most.
 constexpr std::size_t kSealBytes = 1 + 1 + kLongestName + 24 + 2 + 8 + 8 + 16;
 constexpr std::size_t kLongestPayload = 65000;
+/// An Opener knows so many senders, each for each robot's channel, and forgets none.
+constexpr std::size_t kMostSenders = 64;
 
 /// What became of a message that came in.
 enum class Verdict : std::uint8_t {
@@ -108,14 +110,14 @@ class Opener {
 
   [[nodiscard]] Opened open(const std::string& channel, std::string_view sealed);
 
+  /// Whoever it did not hear before is `unknown` from now on.
+  [[nodiscard]] bool full() const { return heard_.size() >= kMostSenders; }
   /// How many messages had this verdict.
   [[nodiscard]] long count(Verdict verdict) const {
     return counts_[static_cast<std::size_t>(verdict)];
   }
 
  private:
-  static constexpr std::size_t kMostSenders = 64;
-
   /// Who seals, with which robot's key.
   using Pair = std::pair<std::string, std::string>;
   /// What was heard of a pair, and with which key: a renewed one begins anew.
