@@ -80,6 +80,8 @@ int run(const ProcessOptions& options) {
     throw Error("link.ground " + config.link.ground +
                 " is this machine: its LCM would hear late what it said before");
   const exchange::Key key = exchange::read_key(config.exchange.key_file);
+  const std::string note = exchange::team_key_note(config.exchange.key_file);
+  if (!note.empty()) spdlog::warn(note);
   Bus bus = Bus::on_network(config.bus.control_url, config.bus.receive_buffer_kb, options.robot);
   Presence presence(bus, kRole);
   Radio radio(config.link, LinkEnd::End::robot, 0, key, bus, 1);

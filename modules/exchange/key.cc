@@ -11,6 +11,7 @@
 #include <cstring>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "saker/core/error.h"
 #include "saker/core/files.h"
@@ -175,6 +176,15 @@ void require_key_of(const Key& key, const std::string& name) {
   if (key.robot.empty() || key.robot == name) return;
   throw Error(
       fmt::format("the key is that of {}, expected that of {} or the team's", key.robot, name));
+}
+
+std::string team_key_note(const std::filesystem::path& file) {
+  std::error_code hidden;
+  if (!std::filesystem::exists(file, hidden) || !read_key(file).robot.empty()) return "";
+  return fmt::format(
+      "{} is the team's key: with this robot every robot's is lost; its own is enough (saker base "
+      "key --robot)",
+      file.string());
 }
 
 }  // namespace saker::exchange

@@ -51,4 +51,8 @@ void renew_key(const std::filesystem::path& team_file, const std::string& robot,
 /// Throws Error in one line where this is the key of another robot than `name`.
 void require_key_of(const Key& key, const std::string& name);
 
+/// What is wrong with the key's file on a robot, in one line: it is the team's, which stays at the
+/// base. Empty: nothing is, or there is no file. Throws Error as `read_key`.
+[[nodiscard]] std::string team_key_note(const std::filesystem::path& file);
+
 }  // namespace saker::exchange

@@ -147,6 +147,15 @@ TEST(RobotsKey, IsOnlyThatRobots) {
   EXPECT_THROW(require_key_of(r1, "R2"), Error);
 }
 
+TEST(RobotsKey, OnlyTheTeamsInItsPlaceIsNoted) {
+  const auto folder = test_folder();
+  EXPECT_EQ(team_key_note(folder / "none"), "");
+  make_key_file(folder / "team");
+  make_robot_key_file(read_key(folder / "team"), "R1", folder / "r1");
+  EXPECT_EQ(team_key_note(folder / "r1"), "");
+  EXPECT_NE(team_key_note(folder / "team").find("team is the team's key"), std::string::npos);
+}
+
 TEST(RobotsKey, LinesThatSayNothingAreRefused) {
   const auto file = test_folder() / "key";
   const std::string digits(64, 'a');
