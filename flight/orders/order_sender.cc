@@ -89,7 +89,7 @@ void OrderSender::begin_life() {
   const KeyFile there = key_there();
   const exchange::Key key = exchange::read_key(key_file_);
   const FolderLock lock(file_of(folder_, name_, ".lock"));
-  sealer_ = std::make_unique<exchange::Sealer>(key, name_, file_of(folder_, name_, ".counter"));
+  sealer_ = std::make_unique<exchange::Sealer>(key, name_, file_of(folder_, name_, ".epoch"));
   key_read_ = there;
   superseded_ = false;
 }

@@ -58,7 +58,7 @@ class OrderSender {
   /// \param bus   has to outlive this; orders go to the channel of each robot
   /// \param key_file  read again before an order where it was written since: a key was renewed
   /// \param name  under which this process seals, of its own in the team: capitals and digits
-  /// \param folder  where the seal's epoch is kept, as order-NAME.counter; has to exist
+  /// \param folder  where the seal's epoch is kept, as order-NAME.epoch; has to exist
   /// Throws Error where key or folder cannot be used.
   OrderSender(const OrderSenderConfig& config, Bus& bus, std::filesystem::path key_file,
               const std::string& name, const std::filesystem::path& folder);

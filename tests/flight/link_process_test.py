@@ -80,7 +80,7 @@ class Link(RadioTest):
         self.assertEqual(self.heard(orders), [])
         self.assertEqual(self.heard(ear), [("R1_STATE", "0400000000")])
 
-    # Hazard: Orders and the radio | a disk was replaced: counters are lost | locked out until its key is renewed | –
+    # Hazard: Orders and the radio | a disk was replaced: the epoch is lost | heard again where its clock is right, else by a renewed key | –
     def test_a_robot_whose_disk_was_replaced_is_brought_back_by_a_renewed_key(self):
         base, link = self.connect()
         self.stop(link)
@@ -100,6 +100,12 @@ class Link(RadioTest):
         self.wait(lambda: "R1 is there" in self.log("base"), 10, "renewed robot")
         self.wait(lambda: self.stored_bytes("R1") == 3_000, 30, "history of R1")
         self.stop(robot)
+
+    def test_a_robot_that_holds_the_teams_key_says_so(self):
+        self.start_ground()
+        self.start_link(key=self.key)
+        self.wait(lambda: "joins R1" in self.log("link"), 20, "link")
+        self.assertIn(f"{self.key} is the team's key", self.log("link"))
 
     def test_what_keeps_it_from_starting_is_one_line(self):
         def refusal(*settings, status=2):
