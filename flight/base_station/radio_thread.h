@@ -12,8 +12,8 @@ namespace saker::flight {
 
 /// The ground's end of the link on a thread of its own, with an ear of its own on this machine's
 /// LCM: an order, or a robot's session, waits for no disk. What robots say reaches the station by
-/// LCM; what its socket's buffer (bus.receive_buffer_kb) does not hold while a disk takes its time
-/// is lost, and asked for again (exchange/peer.h).
+/// LCM; what LCM's queue of a channel does not hold while a disk takes its time is lost, and asked
+/// for again (exchange/peer.h).
 class RadioThread {
  public:
   using Steady = LinkEnd::Steady;

@@ -225,6 +225,7 @@ void LinkEnd::receive(Steady::time_point now, const Address& from, std::string_v
     case Session::Outcome::begun:
       counterpart->joiners.clear();
       counterpart->there = true;
+      counterpart->second_seen = {};
       counterpart->next_call = now;  // so that it knows, too
       spdlog::info("{} is there ({})", end_ == End::ground ? robot : "the ground", to_string(from));
       [[fallthrough]];
