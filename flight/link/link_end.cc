@@ -157,7 +157,10 @@ void LinkEnd::say_goodbye() {
 }
 
 void LinkEnd::look_after(const std::string& robot, Counterpart& counterpart) {
-  if (!counterpart.session.alive(now_)) lose(robot, counterpart, "is silent");
+  if (counterpart.there && !counterpart.session.alive(now_)) {
+    counterpart.session.end();  // so that its next call brings the challenge that is open then
+    lose(robot, counterpart, "is silent");
+  }
   while (counterpart.there) {
     const auto piece = counterpart.outbox.next(now_);
     if (!piece) break;

@@ -32,6 +32,11 @@ Session::Session(double lost_s, double hello_s)
 
 void Session::draw_challenge() { randombytes_buf(&challenge_, sizeof challenge_); }
 
+void Session::end() {
+  epoch_.reset();
+  draw_challenge();
+}
+
 /// Of the life that brought a challenge while another one was heard.
 bool Session::is_next(Steady::time_point now, const exchange::Opened& message) const {
   return next_ && next_->epoch == message.epoch && message.counter > next_->counter &&
@@ -42,10 +47,7 @@ Session::Heard Session::open(Steady::time_point now, const exchange::Opened& mes
   exchange::ByteReader in(message.payload);
   const auto theirs = in.fixed<std::uint64_t>(), brought = in.fixed<std::uint64_t>();
   if (in.failed()) return {};
-  if (epoch_ && !alive(now)) {  // what was held back meanwhile does not come after all
-    epoch_.reset();
-    draw_challenge();
-  }
+  if (epoch_ && !alive(now)) end();
   const bool begins = epoch_ != message.epoch;
   if (begins) {
     const bool proven = is_next(now, message);
@@ -69,8 +71,7 @@ Session::Heard Session::open(Steady::time_point now, const exchange::Opened& mes
   heard_ = now;
   newest_ = message.counter == window_.newest();
   if (std::string_view(message.payload).substr(in.at()) == kGoodbye) {
-    epoch_.reset();  // and its challenge is open no more
-    draw_challenge();
+    end();
     return {Outcome::goodbye};
   }
   return {begins ? Outcome::begun : Outcome::taken, message.payload.substr(in.at())};

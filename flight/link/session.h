@@ -53,6 +53,9 @@ class Session {
   /// To be sealed and sent where this end stops: the counterpart waits for no silence.
   [[nodiscard]] std::string goodbye() const;
 
+  /// The life that was heard is over: what answers an earlier call, or was held back, begins none.
+  void end();
+
   [[nodiscard]] bool alive(Steady::time_point now) const { return epoch_ && now - heard_ < lost_; }
   /// The last datagram that was taken is the newest of its life.
   [[nodiscard]] bool newest() const { return newest_; }

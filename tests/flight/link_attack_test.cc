@@ -152,12 +152,12 @@ TEST_F(AnAttacker, TwoRobotsOfOneNameDoNotTakeTurns) {
   Robot second(*this, "R1", 3, exchange::key_of(team, "R1").value());
   robots.push_back(&second);
   for (int i = 0; i < 300; ++i) {
-    say(*robot->bus, "R1_STATE", "first");
-    say(*second.bus, "R1_STATE", "second");
+    say(*robot->bus, "R1_STATE", "first " + std::to_string(i));
+    say(*second.bus, "R1_STATE", "second " + std::to_string(i));
     step();
   }
   EXPECT_TRUE(on(heard, "R1_STATE").size() > 3);
-  for (const std::string& text : on(heard, "R1_STATE")) EXPECT_EQ(text, "first");
+  for (const std::string& text : on(heard, "R1_STATE")) EXPECT_EQ(text.substr(0, 5), "first");
   EXPECT_GT(ground->counters().refused.second, 0);
   robots = {&second};  // the first one is off
   run(5);

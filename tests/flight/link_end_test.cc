@@ -222,9 +222,9 @@ TEST_F(ALink, IsThereAgainAfterAMissedHelloWhicheverEndWasKilled) {
   run(1);
   (void)back_after_s();
   robot->start(*this);
-  EXPECT_LT(back_after_s(), 1.4);
+  EXPECT_LT(back_after_s(), 1.6) << "a hello, two messages of the robot";
   start_ground();
-  EXPECT_LT(back_after_s(), 1.4);
+  EXPECT_LT(back_after_s(), 1.6);
 }
 
 TEST_F(ALink, SaysThatThereIsASecondRobotOnlyWhereBothAreHeard) {

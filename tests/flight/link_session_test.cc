@@ -33,6 +33,7 @@ class TwoEndsOfALink : public testing::Test {
  protected:
   /// Until both know that the other one lives.
   void join(Life& robot, Life& ground) {
+    if (!robot.session.alive(now)) robot.session.end();  // as its end does when it notices
     const auto call = robot.says();
     ASSERT_EQ(ground.session.open(now, call).outcome, Outcome::asks);
     ASSERT_EQ(robot.session.open(now, ground.answers(call)).outcome, Outcome::begun);
@@ -118,6 +119,7 @@ TEST_F(TwoEndsOfALink, OfTwoOfOneNameTheFirstIsHeardUntilItIsSilent) {
   EXPECT_EQ(ground.session.open(now, first.says()).outcome, Outcome::taken);
   now += milliseconds(3100);
   EXPECT_EQ(ground.session.open(now, refused).outcome, Outcome::asks) << "its challenge is used";
+  second.session.end();
   const auto again = second.says();
   EXPECT_EQ(ground.session.open(now, again).outcome, Outcome::asks);
   (void)second.session.open(now, ground.answers(again));
