@@ -13,6 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+static_assert(BaseConfig::kMostRobots <= static_cast<int>(exchange::kMostSenders));
 constexpr milliseconds kStepPeriod{20};    // of the exchange, as exchange.h asks for
 constexpr milliseconds kLookPeriod{5000};  // at contacts: each costs the disk a write
 constexpr milliseconds kHealthPeriod{1000};
@@ -31,11 +32,11 @@ counter_t counter(const std::string& name, long value) {
 }  // namespace
 
 BaseStation::BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& bus,
-                         const LinkEnd* link)
+                         LinkReports link)
     : config_(core::checked(config.base, "base")),
       store_(store),
       bus_(bus),
-      link_(link),
+      link_(std::move(link)),
       exchange_(config.exchange.link, bus.robot(), exchange::read_key(config.exchange.key_file),
                 config_.folder, store) {
   bus_.subscribe_all<exchange_t>(
@@ -56,9 +57,17 @@ void BaseStation::warn_of_earlier(const std::string& robot) {
   if (!warned_.insert(robot).second) return;
   spdlog::warn(
       "{} lost its epoch and its clock is behind, or there are two: set the clock, or renew its "
-      "key "
-      "(saker base key --robot {} --renew)",
+      "key (saker base key --robot {} --renew)",
       robot, robot);
+}
+
+/// Once of each robot that calls.
+void BaseStation::warn_of_full(const std::string& robot) {
+  if (!warned_.insert(robot).second) return;
+  spdlog::warn(
+      "{} is refused: {} names were heard here, no more are kept; without robots in the air: stop "
+      "saker-base, remove {}/heard.windows",
+      robot, exchange::kMostSenders, config_.folder);
 }
 
 /// A robot's first message is its ticket: only what the team's key sealed makes a link. Its content
@@ -66,6 +75,8 @@ void BaseStation::warn_of_earlier(const std::string& robot) {
 bool BaseStation::admit(const std::string& channel, const exchange_t& message) {
   const exchange::Opened first = exchange_.opener().open(channel, datagram_of(message));
   if (first.verdict == exchange::Verdict::superseded) warn_of_earlier(robot_of(channel));
+  if (first.verdict == exchange::Verdict::unknown && exchange_.opener().full())
+    warn_of_full(robot_of(channel));
   if (first.verdict != exchange::Verdict::genuine || first.sender != robot_of(channel))
     return false;
   if (visits_.size() >= static_cast<std::size_t>(config_.most_robots)) {
@@ -119,7 +130,7 @@ void BaseStation::look_at_contacts(Time now) {
 
 void BaseStation::say_totals() const {
   const exchange::Exchange::Counters exchanged = exchange_.counters();
-  const LinkEnd::Counters linked = link_ != nullptr ? link_->counters() : LinkEnd::Counters{};
+  const LinkEnd::Counters linked = link_ ? link_().counters : LinkEnd::Counters{};
   spdlog::info("exchange: sent {} bytes, received {}; link: {} messages up, {} down, {} refused",
                exchanged.sent_bytes, exchanged.received_bytes, linked.in_messages,
                linked.out_messages, linked.refused.all());
@@ -136,8 +147,8 @@ void BaseStation::say_health() {
   health.counters.push_back(counter("store_bytes", store_.file_bytes()));
   health.counters.push_back(counter("store_full", store_.full()));
   health.counters.push_back(counter("robots_refused", crowded_));
-  if (link_ != nullptr) {
-    for (const auto& [name, value] : flight::health(*link_))
+  if (link_) {
+    for (const auto& [name, value] : flight::health(link_()))
       health.counters.push_back(counter(name, value));
   }
   health.num_counters = static_cast<std::int32_t>(health.counters.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -14,20 +15,23 @@
 
 namespace saker::flight {
 
+/// How the ground's end of the link stands; asked for once a second.
+using LinkReports = std::function<LinkEnd::Report()>;
+
 /// The base station on its machine's LCM, where the ground's end of the link (flight/link) says
 /// what robots say: exchanges histories with every robot that has a key of the team, keeps them,
-/// says
-/// `_HEALTH` at 1 Hz.
+/// says `_HEALTH` at 1 Hz.
 ///
-/// One thread: handlers pass what comes to the exchange, `step` sends what is due.
+/// One thread, which waits for the disk: handlers pass what comes to the exchange, `step` sends
+/// what is due. Nothing that a robot is ordered passes here (radio_thread.h).
 class BaseStation {
  public:
   using Steady = std::chrono::steady_clock;
 
-  /// Subscribes to the bus, which has to outlive this as `store` and `link` do.
-  /// \param link  for HEALTH; null: none
+  /// Subscribes to the bus, which has to outlive this as `store` does.
+  /// \param link  for HEALTH; empty: none
   /// Throws Error on an invalid value.
-  BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& bus, const LinkEnd* link);
+  BaseStation(const ProcessConfig& config, DatabaseStore& store, Bus& bus, LinkReports link);
 
   void step(Steady::time_point now);
 
@@ -48,6 +52,7 @@ class BaseStation {
   bool hear(const std::string& robot, const exchange_t& message);
   [[nodiscard]] bool admit(const std::string& channel, const exchange_t& message);
   void warn_of_earlier(const std::string& robot);
+  void warn_of_full(const std::string& robot);
   void send(Time now);
   void look_at_contacts(Time now);
   void say_health();
@@ -55,7 +60,7 @@ class BaseStation {
   BaseConfig config_;
   DatabaseStore& store_;
   Bus& bus_;
-  const LinkEnd* link_;
+  LinkReports link_;
   exchange::Exchange exchange_;
   std::map<std::string, Visit> visits_;  // by channel
   std::set<std::string> warned_;         // of robots that were heard with an earlier epoch

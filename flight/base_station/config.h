@@ -7,6 +7,8 @@
 namespace saker::flight {
 
 struct BaseConfig {
+  static constexpr int kMostRobots = 64;  // whom its seals' windows take (exchange/seal.h)
+
   std::string folder = "saker-base";
   int most_store_mb = 4096;
   int most_robots = 32;
@@ -18,7 +20,7 @@ struct BaseConfig {
         "The base station keeps what the robots said in this folder (base.db), made if need be.");
     v.setting("most_store_mb", most_store_mb, {1, 1 << 20}, "MB",
               "The store grows to this size; what is more is refused.");
-    v.setting("most_robots", most_robots, {1, 1000}, "",
+    v.setting("most_robots", most_robots, {1, kMostRobots}, "",
               "The base station exchanges with at most so many robots.");
   }
 };

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "flight/base_station/base_station.h"
+#include "flight/base_station/radio_thread.h"
 #include "flight/bus/multicast.h"
 #include "flight/bus/presence.h"
-#include "flight/link/radio.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
 #include "saker/core/error.h"
@@ -42,19 +42,16 @@ class OwnFolder {
   int descriptor_ = -1;
 };
 
-void serve(BaseStation& base, Bus& bus, Presence& presence, Radio* radio) {
+void serve(BaseStation& base, Bus& bus, Presence& presence, const RadioThread* radio) {
   Service service;
   service.ready();
   Steady::time_point next_announcement = Steady::now();
   while (stop_requests() == 0) {
-    auto until = std::min(base.next_due(), next_announcement);
-    if (radio != nullptr) until = std::min(until, radio->end().next_due());
+    const auto until = std::min(base.next_due(), next_announcement);
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until - Steady::now());
-    if (Bus::handle({&bus}, wait, radio != nullptr ? radio->descriptor() : -1) < 0)
-      throw Error("the LCM network is gone");
+    if (Bus::handle({&bus}, wait) < 0) throw Error("the LCM network is gone");
     base.step(Steady::now());
-    if (radio != nullptr) radio->step(Steady::now());
-    service.alive(Steady::now());
+    if (radio == nullptr || radio->runs(Steady::now())) service.alive(Steady::now());
     if (Steady::now() < next_announcement) continue;
     presence.announce();
     if (presence.outranked()) throw Error(presence.other());
@@ -71,12 +68,10 @@ int run(const ProcessOptions& options) {
   presence.claim();
   const OwnFolder own(config.base.folder);
   DatabaseStore store(store_file(config.base), config.base.most_store_mb);
-  std::optional<Radio> radio;
-  if (config.link.port != 0) {
-    radio.emplace(config.link, LinkEnd::End::ground, static_cast<std::uint16_t>(config.link.port),
-                  exchange::read_key(config.exchange.key_file), bus, config.base.most_robots);
-  }
-  BaseStation base(config, store, bus, radio ? &radio->end() : nullptr);
+  std::optional<RadioThread> radio;
+  if (config.link.port != 0) radio.emplace(config, options.robot);
+  BaseStation base(config, store, bus,
+                   radio ? [&radio] { return radio->report(); } : LinkReports{});
   spdlog::info("listens as {}, holds {} streams, {}", options.robot, store.extents().size(),
                radio ? "robots call UDP port " + std::to_string(config.link.port)
                      : "hears no robot over the radio");

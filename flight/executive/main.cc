@@ -39,6 +39,8 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-flight");
   presence.claim();
+  const std::string key_note = exchange::team_key_note(config.exchange.key_file);
+  if (!key_note.empty()) spdlog::warn(key_note);
   const std::unique_ptr<RobotExchange> exchange = make_exchange(config, bus);
   std::optional<Briefing> briefing;
   if (exchange != nullptr) {

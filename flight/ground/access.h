@@ -44,7 +44,8 @@ class Gate {
 [[nodiscard]] std::filesystem::path page_folder();
 
 struct Credentials {
-  std::string key;  ///< 128 bits, for the address
+  std::string key;                 ///< 128 bits, for the address
+  std::filesystem::path key_file;  ///< where it is
   std::filesystem::path certificate, private_key;
   std::string fingerprint;  ///< SHA-256 of the certificate, as browsers show it
 };

@@ -169,10 +169,11 @@ Credentials credentials(const fs::path& folder, const std::string& address) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   Credentials result{.key = {},
+                     .key_file = folder / "address.key",
                      .certificate = folder / ("certificate-" + address + ".pem"),
                      .private_key = folder / ("private-key-" + address + ".pem"),
                      .fingerprint = {}};
-  const fs::path key_file = folder / "address.key";
+  const fs::path& key_file = result.key_file;
   if (!is_there(key_file)) write_secret(key_file, drawn_key() + "\n");
   result.key = read_key(key_file);
   if (!is_there(result.certificate) || !is_there(result.private_key))

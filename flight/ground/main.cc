@@ -1,4 +1,5 @@
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -33,9 +34,15 @@ ServerConfig server_config(const GroundConfig& config) {
   return server;
 }
 
+/// The key is for the eyes of who sits before it: on a terminal, in no log.
 void say_address(const Server& server, const ServerConfig& config) {
-  std::cout << server.address() << std::endl;
+  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+  std::cout << server.address() << (config.tls && terminal ? "?key=" + config.tls->key : "")
+            << std::endl;
   if (!config.tls) return;
+  if (!terminal)
+    spdlog::info("opens as {}?key=KEY, with the key in {}", server.address(),
+                 config.tls->key_file.string());
   spdlog::info("the certificate is this server's own; browsers show its SHA-256: {}",
                config.tls->fingerprint);
 }
@@ -98,8 +105,8 @@ int show_live(const ProcessConfig& config, viewers::Site site, const std::string
                     orders, recording ? &*recording : nullptr);
   if (fs::exists(config.exchange.key_file)) {
     fs::create_directories(config.ground.folder);
-    orders.send_by(std::make_unique<TeamOrderLine>(
-        source.bus(), exchange::read_key(config.exchange.key_file), name, config.ground.folder));
+    orders.send_by(std::make_unique<TeamOrderLine>(source.bus(), config.exchange.key_file, name,
+                                                   config.ground.folder));
   } else {
     spdlog::info("no key of a team at {}: orders are refused", config.exchange.key_file);
   }

@@ -287,7 +287,7 @@ long Server::refused() const { return loop_->refused(); }
 std::string Server::address() const {
   const ServerConfig& config = loop_->config();
   const std::string place = config.address + ":" + std::to_string(port()) + "/";
-  return config.tls ? "https://" + place + "?key=" + config.tls->key : "http://" + place;
+  return (config.tls ? "https://" : "http://") + place;
 }
 
 }  // namespace saker::flight::ground

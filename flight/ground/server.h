@@ -29,7 +29,7 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   [[nodiscard]] int port() const;
-  /// What a person opens: "http://127.0.0.1:8765/", with the key where there is one.
+  /// What a person opens: "http://127.0.0.1:8765/"; a key, which no log is to hold, not with it.
   [[nodiscard]] std::string address() const;
   /// Connections that were refused: without the key, of another site, or one too many.
   [[nodiscard]] long refused() const;

@@ -10,12 +10,17 @@ namespace saker::flight::ground {
 /// Orders sealed by the team's key, as `saker order` sends them (flight/orders/order_sender.h).
 class TeamOrderLine : public OrderLine {
  public:
-  /// \param bus  has to outlive what is sent by this
-  /// \param name  under which this process seals; \param folder  where its counter is kept
-  /// Throws Error where the folder cannot be used.
-  TeamOrderLine(Bus& bus, const exchange::Key& key, const std::string& name,
+  /// \param bus  has to outlive what is sent by this, and is not handled after it
+  /// \param name  under which this process seals; \param folder  where its epoch is kept
+  /// Subscribes to the bus. Throws Error where key or folder cannot be used.
+  TeamOrderLine(Bus& bus, const std::filesystem::path& key_file, const std::string& name,
                 const std::filesystem::path& folder)
-      : sender_({}, bus, key, name, folder) {}
+      : sender_({}, bus, key_file, name, folder) {
+    bus.subscribe_all<order_t>([this](const std::string& robot, const order_t& message) {
+      sender_.hear(robot, message);
+      return true;
+    });
+  }
 
   std::int64_t send(const std::string& robot, const std::string& kind,
                     Steady::time_point now) override;

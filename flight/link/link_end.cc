@@ -14,8 +14,10 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kCallPeriod{200};   // of a robot that hears no ground
-constexpr milliseconds kAnswerPeriod{20};  // at least, to one robot: a flood of recordings
+constexpr milliseconds kAnswerPeriod{20};  // at least, to one life at one address
+constexpr std::size_t kMostAnswered = 64;  // lives and addresses that are remembered
 constexpr std::chrono::seconds kWarnPeriod{60};
+constexpr double kHellosUntilLost = 2.5;  // one may be lost, and one come late
 // What this end said comes back within milliseconds; the same bytes later are said anew.
 constexpr std::chrono::seconds kEchoAge{1};
 constexpr std::size_t kMostSaid = 512;  // of a channel: more than one step may publish
@@ -42,12 +44,17 @@ void check(const char* way, const std::vector<LinkedChannel>& channels) {
     if (down ? !kForRobots.contains(channel) : kStay.contains(channel))
       throw Error(where + " must not pass to " + (down ? "a robot" : "the ground"));
     if (!named.insert(channel).second) throw Error(where + " is named twice");
+    if (channel == "_ORDER" && keep < 2)
+      throw Error(where + ": keep 1, expected 2 or more: each order counts");
   }
 }
 
 LinkConfig checked_config(const LinkConfig& config) {
   check("up", config.up);
   check("down", config.down);
+  if (config.lost_s < kHellosUntilLost * config.hello_s)
+    throw Error(fmt::format("link.lost_s {}, expected {} times link.hello_s or more", config.lost_s,
+                            kHellosUntilLost));
   return core::checked(config, "link");
 }
 
@@ -135,11 +142,24 @@ void LinkEnd::step(Steady::time_point now) {
   }
 }
 
+void LinkEnd::lose(const std::string& robot, Counterpart& counterpart, const char* why) {
+  if (!counterpart.there) return;
+  counterpart.there = false;
+  counterpart.next_call = std::min(counterpart.next_call, now_ + kCallPeriod);
+  counterpart.outbox.forget_events();
+  spdlog::warn("{} is gone: it {}", end_ == End::ground ? robot : "the ground", why);
+}
+
+void LinkEnd::say_goodbye() {
+  for (const auto& [robot, counterpart] : counterparts_) {
+    if (counterpart.there) send(robot, counterpart.address, counterpart.session.goodbye());
+  }
+}
+
 void LinkEnd::look_after(const std::string& robot, Counterpart& counterpart) {
   if (counterpart.there && !counterpart.session.alive(now_)) {
-    counterpart.there = false;
-    counterpart.outbox.forget_events();
-    spdlog::warn("{} is gone", end_ == End::ground ? robot : "the ground");
+    counterpart.session.end();  // so that its next call brings the challenge that is open then
+    lose(robot, counterpart, "is silent");
   }
   while (counterpart.there) {
     const auto piece = counterpart.outbox.next(now_);
@@ -166,7 +186,8 @@ LinkEnd::Counterpart* LinkEnd::counterpart_of(const std::string& robot, const Ad
   const auto found = counterparts_.find(robot);
   if (found != counterparts_.end()) return &found->second;
   if (counterparts_.size() >= most_robots_) return nullptr;
-  Counterpart fresh{from, Session(config_.lost_s), Outbox(gives_, config_.rate_kb_s)};
+  Counterpart fresh{from, Session(config_.lost_s, config_.hello_s),
+                    Outbox(gives_, config_.rate_kb_s)};
   return &counterparts_.emplace(robot, std::move(fresh)).first->second;
 }
 
@@ -196,6 +217,8 @@ void LinkEnd::receive(Steady::time_point now, const Address& from, std::string_v
     case Session::Outcome::second:
       ++counters_.refused.second;
       return warn_of_second(robot, *counterpart, from);
+    case Session::Outcome::goodbye:
+      return lose(robot, *counterpart, "says goodbye");
     case Session::Outcome::replayed:
       ++counters_.refused.replayed;
       return;
@@ -205,6 +228,7 @@ void LinkEnd::receive(Steady::time_point now, const Address& from, std::string_v
     case Session::Outcome::begun:
       counterpart->joiners.clear();
       counterpart->there = true;
+      counterpart->second_seen = {};
       counterpart->next_call = now;  // so that it knows, too
       spdlog::info("{} is there ({})", end_ == End::ground ? robot : "the ground", to_string(from));
       [[fallthrough]];
@@ -215,16 +239,30 @@ void LinkEnd::receive(Steady::time_point now, const Address& from, std::string_v
   if (!heard.body.empty()) deliver(robot, *counterpart, heard.body);
 }
 
+/// A recording is answered once at most: what a life says is always newer than what it was answered
+/// before. So no flood of them takes the answer from who lives; whoever is forgotten is answered.
 void LinkEnd::answer(const std::string& robot, Counterpart& counterpart, const Address& to,
                      const exchange::Opened& message) {
-  if (now_ < counterpart.next_answer) return;
-  counterpart.next_answer = now_ + kAnswerPeriod;
+  auto& all = counterpart.answered;
+  const std::pair key(to, message.epoch);
+  if (const auto found = all.find(key); found != all.end()) {
+    const auto& [counter, when] = found->second;
+    if (message.counter <= counter || now_ < when + kAnswerPeriod) return;
+  } else if (all.size() >= kMostAnswered) {
+    all.erase(std::ranges::min_element(all, {}, [](const auto& one) { return one.second.when; }));
+  }
+  all[key] = {message.counter, now_};
   send(robot, to, counterpart.session.answer(message));
 }
 
+/// A restarted process is no second one: only where both are heard it is said.
 void LinkEnd::warn_of_second(const std::string& robot, Counterpart& counterpart,
                              const Address& from) {
-  if (now_ < counterpart.next_warning) return;
+  if (now_ - counterpart.second_seen > std::chrono::duration<double>(config_.lost_s))
+    counterpart.second_since = now_;
+  counterpart.second_seen = now_;
+  const bool both = counterpart.session.heard() > counterpart.second_since;
+  if (!both || now_ < counterpart.next_warning) return;
   counterpart.next_warning = now_ + kWarnPeriod;
   spdlog::warn("a second {} at {}: the first one, at {}, keeps the link",
                end_ == End::ground ? robot : "ground", to_string(from),
@@ -271,9 +309,9 @@ LinkEnd::Counters LinkEnd::counters() const {
   return all;
 }
 
-std::vector<std::pair<std::string, long>> health(const LinkEnd& end) {
-  const LinkEnd::Counters counters = end.counters();
-  return {{"link_connected", end.connected()},
+std::vector<std::pair<std::string, long>> health(const LinkEnd::Report& report) {
+  const LinkEnd::Counters& counters = report.counters;
+  return {{"link_connected", report.connected},
           {"link_in_bytes", counters.in_bytes},
           {"link_out_bytes", counters.out_bytes},
           {"link_refused", counters.refused.all()},

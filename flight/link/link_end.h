@@ -62,6 +62,10 @@ class LinkEnd {
     long incomplete = 0;  ///< messages of which a piece was lost
     Refused refused;
   };
+  struct Report {
+    int connected = 0;  ///< counterparts that are there
+    Counters counters{};
+  };
 
   /// Subscribes to `bus`, this machine's LCM, which has to outlive this.
   /// \param most_robots  of the ground's end
@@ -74,12 +78,16 @@ class LinkEnd {
   /// Sends what is due.
   void step(Steady::time_point now);
 
+  /// To each counterpart that is there, before this process ends: its next life is taken at once.
+  void say_goodbye();
+
   /// Until when there is nothing to send, unless something is heard.
   [[nodiscard]] Steady::time_point next_due() const;
 
   /// How many counterparts are there.
   [[nodiscard]] int connected() const;
   [[nodiscard]] Counters counters() const;
+  [[nodiscard]] Report report() const { return {connected(), counters()}; }
 
  private:
   struct Said {
@@ -87,14 +95,21 @@ class LinkEnd {
     Steady::time_point when;
   };
 
+  /// Of one life at one address that was answered: its newest datagram, and when.
+  struct Answered {
+    std::uint64_t counter = 0;
+    Steady::time_point when{};
+  };
+
   /// Of a robot: its counterpart here.
   struct Counterpart {
     Address address;
     Session session;
     Outbox outbox;
-    std::map<std::string, FragmentJoiner> joiners{};  // by channel
-    std::map<std::string, std::deque<Said>> said{};   // and heard here, by channel
-    Steady::time_point next_call{}, next_answer{}, next_warning{}, seen{};
+    std::map<std::string, FragmentJoiner> joiners{};                   // by channel
+    std::map<std::string, std::deque<Said>> said{};                    // and heard here, by channel
+    std::map<std::pair<Address, std::uint64_t>, Answered> answered{};  // by address and epoch
+    Steady::time_point next_call{}, next_warning{}, seen{}, second_since{}, second_seen{};
     bool there = false;
   };
 
@@ -105,6 +120,7 @@ class LinkEnd {
   void warn_of_second(const std::string& robot, Counterpart& counterpart, const Address& from);
   void deliver(const std::string& robot, Counterpart& counterpart, std::string_view body);
   void send(const std::string& robot, const Address& to, const std::string& payload);
+  void lose(const std::string& robot, Counterpart& counterpart, const char* why);
   void look_after(const std::string& robot, Counterpart& counterpart);
   [[nodiscard]] bool is_new(Counterpart& counterpart, const std::string& channel, Bus::Bytes bytes);
 
@@ -123,6 +139,6 @@ class LinkEnd {
 };
 
 /// What HEALTH shows of it: name (at most 24 bytes) and value.
-[[nodiscard]] std::vector<std::pair<std::string, long>> health(const LinkEnd& end);
+[[nodiscard]] std::vector<std::pair<std::string, long>> health(const LinkEnd::Report& report);
 
 }  // namespace saker::flight

@@ -21,8 +21,9 @@ constexpr const char* kRole = "saker-link";
 constexpr std::chrono::milliseconds kHealthPeriod{1000};
 
 health_t health_of(const LinkEnd& end, LoopMeter& meter) {
-  const LinkEnd::Counters counters = end.counters();
-  auto figures = health(end);
+  const LinkEnd::Report report = end.report();
+  const LinkEnd::Counters& counters = report.counters;
+  auto figures = health(report);
   figures.emplace_back("link_unsealed", counters.refused.unsealed);
   figures.emplace_back("link_replayed", counters.refused.replayed);
   figures.emplace_back("link_strangers", counters.refused.strangers);
@@ -63,6 +64,7 @@ void serve(Bus& bus, Presence& presence, Radio& radio, Service service) {
     if (presence.outranked()) throw Error(presence.other());
   }
   service.stopping();
+  radio.end().say_goodbye();
 }
 
 int run(const ProcessOptions& options) {
@@ -74,7 +76,12 @@ int run(const ProcessOptions& options) {
     return 0;
   }
   require_on_machine("bus.control_url", config.bus.control_url);
+  if (is_own(address_of("link.ground", config.link.ground)))
+    throw Error("link.ground " + config.link.ground +
+                " is this machine: its LCM would hear late what it said before");
   const exchange::Key key = exchange::read_key(config.exchange.key_file);
+  const std::string note = exchange::team_key_note(config.exchange.key_file);
+  if (!note.empty()) spdlog::warn(note);
   Bus bus = Bus::on_network(config.bus.control_url, config.bus.receive_buffer_kb, options.robot);
   Presence presence(bus, kRole);
   Radio radio(config.link, LinkEnd::End::robot, 0, key, bus, 1);

@@ -11,7 +11,7 @@ namespace {
 // Seal, both challenges, UDP and IP.
 constexpr std::size_t kAround = exchange::kSealBytes + 16 + 28;
 constexpr double kSavedUp_s = 0.02;  // of the rate that was not used
-// A channel that was not looked at for so long makes up for it.
+// A channel that was not looked at for so long at most makes up for it.
 constexpr std::chrono::milliseconds kMadeUp{20};
 
 }  // namespace
@@ -46,7 +46,7 @@ void Outbox::begin(Line& line, Steady::time_point now) {
   line.count = static_cast<std::uint16_t>(
       std::max<std::size_t>(1, (line.sending.size() + kFragmentBytes - 1) / kFragmentBytes));
   ++line.number;
-  line.next = std::max(line.next, now - kMadeUp) + line.period;
+  line.next = (now - line.next > kMadeUp ? now : line.next) + line.period;
   ++counters_.messages;
   counters_.bytes += static_cast<long>(line.sending.size());
 }

@@ -19,7 +19,8 @@ namespace saker::flight {
 /// which is open here: only who has the key and lives now can seal it. Then the challenge is drawn
 /// anew, so no recording brings it, whichever end was started again, and whatever was lost. Within
 /// a life a window takes each counter once, and none from before its first datagram. While one life
-/// is heard no other begins: of two robots of one name the first one keeps the link.
+/// is heard no other begins: of two robots of one name the first one keeps the link. A life that
+/// said goodbye is over, and one that let a hello of its own pass gives way to the next.
 class Session {
  public:
   using Steady = std::chrono::steady_clock;
@@ -28,7 +29,8 @@ class Session {
     taken,
     begun,     ///< taken, the first of a life
     asks,      ///< of a life that did not bring the challenge: to be answered
-    second,    ///< it lives, but so does another of its name
+    second,    ///< it lives, but so does another of its name, or did a moment ago
+    goodbye,   ///< taken, the last of its life
     replayed,  ///< taken before, or too old to know
     malformed
   };
@@ -38,7 +40,8 @@ class Session {
   };
 
   /// \param lost_s  of silence after which the counterpart is gone
-  explicit Session(double lost_s);
+  /// \param hello_s  of silence after which another life of it that calls is taken in its place
+  Session(double lost_s, double hello_s);
 
   /// \param message  genuine (exchange::unsealed)
   [[nodiscard]] Heard open(Steady::time_point now, const exchange::Opened& message);
@@ -47,16 +50,31 @@ class Session {
   [[nodiscard]] std::string payload(std::string_view body) const;
   /// The same for who asks, in answer to its message.
   [[nodiscard]] std::string answer(const exchange::Opened& message) const;
+  /// To be sealed and sent where this end stops: the counterpart waits for no silence.
+  [[nodiscard]] std::string goodbye() const;
+
+  /// The life that was heard is over: what answers an earlier call, or was held back, begins none.
+  void end();
 
   [[nodiscard]] bool alive(Steady::time_point now) const { return epoch_ && now - heard_ < lost_; }
   /// The last datagram that was taken is the newest of its life.
   [[nodiscard]] bool newest() const { return newest_; }
+  /// When it was heard last.
+  [[nodiscard]] Steady::time_point heard() const { return heard_; }
 
  private:
-  void draw_challenge();
+  /// A life that is to follow the one that is heard.
+  struct Next {
+    std::uint64_t epoch = 0, counter = 0;
+    Steady::time_point heard{};
+  };
 
-  Steady::duration lost_;
+  void draw_challenge();
+  [[nodiscard]] bool is_next(Steady::time_point now, const exchange::Opened& message) const;
+
+  Steady::duration lost_, silent_;
   std::optional<std::uint64_t> epoch_;  // of the life that is heard
+  std::optional<Next> next_;
   exchange::ReplayWindow window_;
   std::uint64_t challenge_ = 0;  // open here
   std::uint64_t echo_ = 0;       // the counterpart's, as it was heard last

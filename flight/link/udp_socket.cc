@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <ifaddrs.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -45,6 +46,21 @@ Address address_of(const std::string& key, const std::string& text) {
     if (fault == std::errc{} && stop == end && port > 0) return {ntohl(ip.s_addr), port};
   }
   throw Error(fmt::format("{} {}, expected ADDRESS:PORT as in 192.168.8.1:7670", key, text));
+}
+
+bool is_own(const Address& address) {
+  if (address.ip == INADDR_ANY || address.ip >> 24 == IN_LOOPBACKNET) return true;
+  ifaddrs* first = nullptr;
+  if (::getifaddrs(&first) != 0) return false;
+  bool own = false;
+  for (const ifaddrs* one = first; one != nullptr && !own; one = one->ifa_next) {
+    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+    sockaddr_in ip{};
+    std::memcpy(&ip, one->ifa_addr, sizeof ip);
+    own = ntohl(ip.sin_addr.s_addr) == address.ip;
+  }
+  ::freeifaddrs(first);
+  return own;
 }
 
 UdpSocket::UdpSocket(std::uint16_t port)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,13 +13,16 @@ struct Address {
   std::uint32_t ip = 0;  ///< IPv4, the first number in the upper byte
   std::uint16_t port = 0;
 
-  bool operator==(const Address&) const = default;
+  auto operator<=>(const Address&) const = default;
 };
 
 [[nodiscard]] std::string to_string(const Address& address);
 
 /// Of "192.168.8.1:7670". Throws Error that names the setting on anything else.
 [[nodiscard]] Address address_of(const std::string& key, const std::string& text);
+
+/// Whether it is this machine's own.
+[[nodiscard]] bool is_own(const Address& address);
 
 /// Plain UDP, without waiting.
 class UdpSocket {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "saker/core/error.h"
 #include "saker/core/files.h"
@@ -93,6 +94,11 @@ void write_new(const std::filesystem::path& file, const std::string& text) {
   if (!written) throw Error(fmt::format("cannot write {}: disk full?", file.string()));
 }
 
+void replace(const std::filesystem::path& file, const std::string& text) {
+  if (!write_durably(file, text, Access::kept))
+    throw Error(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
+}
+
 void check_robot(const std::string& robot) {
   if (is_name(robot)) return;
   throw Error(fmt::format("robot {}, expected up to {} capitals and digits", robot, kLongestName));
@@ -139,7 +145,7 @@ std::optional<Key> key_of(const Key& key, const std::string& robot) {
 }
 
 void make_robot_key_file(const Key& key, const std::string& robot,
-                         const std::filesystem::path& file) {
+                         const std::filesystem::path& file, Existing existing) {
   check_robot(robot);
   if (!key.robot.empty()) {
     throw Error(
@@ -147,10 +153,12 @@ void make_robot_key_file(const Key& key, const std::string& robot,
                     "from it",
                     key.robot));
   }
-  write_new(file, robot + " " + digits_of(*key_of(key, robot)));
+  const std::string text = robot + " " + digits_of(*key_of(key, robot));
+  existing == Existing::replaced ? replace(file, text) : write_new(file, text);
 }
 
-void renew_key(const std::filesystem::path& team_file, const std::string& robot) {
+void renew_key(const std::filesystem::path& team_file, const std::string& robot,
+               const std::filesystem::path& robot_file) {
   check_robot(robot);
   Key key = read_key(team_file);
   if (!key.robot.empty()) {
@@ -158,20 +166,25 @@ void renew_key(const std::filesystem::path& team_file, const std::string& robot)
         fmt::format("{}: the key of {}, expected the team's", team_file.string(), key.robot));
   }
   ++key.renewed[robot];
+  make_robot_key_file(key, robot, robot_file, Existing::replaced);
   std::string text = digits_of(key);
   for (const auto& [name, count] : key.renewed) text += fmt::format("{} {}\n", name, count);
-  struct stat before {};  // who may read it, also when somebody else renews
-  const bool written = ::stat(team_file.c_str(), &before) == 0 && write_durably(team_file, text) &&
-                       ::chown(team_file.c_str(), before.st_uid, before.st_gid) == 0;
-  if (!written) {
-    throw Error(fmt::format("cannot write {}: {}", team_file.string(), std::strerror(errno)));
-  }
+  replace(team_file, text);
 }
 
 void require_key_of(const Key& key, const std::string& name) {
   if (key.robot.empty() || key.robot == name) return;
   throw Error(
       fmt::format("the key is that of {}, expected that of {} or the team's", key.robot, name));
+}
+
+std::string team_key_note(const std::filesystem::path& file) {
+  std::error_code hidden;
+  if (!std::filesystem::exists(file, hidden) || !read_key(file).robot.empty()) return "";
+  return fmt::format(
+      "{} is the team's key: with this robot every robot's is lost; its own is enough (saker base "
+      "key --robot)",
+      file.string());
 }
 
 }  // namespace saker::exchange

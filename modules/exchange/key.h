@@ -32,16 +32,27 @@ void make_key_file(const std::filesystem::path& file);
 /// key can tell one from another.
 [[nodiscard]] std::optional<Key> key_of(const Key& key, const std::string& robot);
 
-/// Writes the robot's key, readable by its owner only. Throws Error where `key` is not the team's,
-/// the name is none, or the file exists.
-void make_robot_key_file(const Key& key, const std::string& robot,
-                         const std::filesystem::path& file);
+/// What becomes of a file that is there.
+enum class Existing { refused, replaced };
 
-/// Renews the robot's key in the team's file, on the disk when it returns: what was sealed with the
-/// ones before is not opened any more. Throws Error as `read_key`, and where it cannot be written.
-void renew_key(const std::filesystem::path& team_file, const std::string& robot);
+/// Writes the robot's key, readable by its owner only, or by whoever may read the file that it
+/// replaces. Throws Error where `key` is not the team's, the name is none, or the file exists and
+/// is not to be replaced.
+void make_robot_key_file(const Key& key, const std::string& robot,
+                         const std::filesystem::path& file, Existing existing = Existing::refused);
+
+/// Renews the robot's key: writes the new one to `robot_file`, in place of what is there, then that
+/// it was renewed into the team's file, whose owner and readers stay. Both are on the disk when it
+/// returns: what was sealed with the keys before is not opened any more. Throws Error as `read_key`
+/// and where a file cannot be written; then the keys before hold, and it may be called again.
+void renew_key(const std::filesystem::path& team_file, const std::string& robot,
+               const std::filesystem::path& robot_file);
 
 /// Throws Error in one line where this is the key of another robot than `name`.
 void require_key_of(const Key& key, const std::string& name);
+
+/// What is wrong with the key's file on a robot, in one line: it is the team's, which stays at the
+/// base. Empty: nothing is, or there is no file. Throws Error as `read_key`.
+[[nodiscard]] std::string team_key_note(const std::filesystem::path& file);
 
 }  // namespace saker::exchange

@@ -125,6 +125,10 @@ std::optional<std::string> Sealer::seal(const std::string& channel, std::string_
   return sealed;
 }
 
+Opened Sealer::opened(const std::string& channel, std::string_view sealed) const {
+  return unsealed(key_, "", channel, sealed);
+}
+
 Opened unsealed(const Key& key, const std::string& own, const std::string& channel,
                 std::string_view sealed) {
   ByteReader in(sealed);
@@ -172,7 +176,7 @@ Opened Opener::open(const std::string& channel, std::string_view sealed) {
 Verdict Opener::take(const std::string& robot, const Opened& message) {
   const Pair pair{message.sender, robot};
   const auto known = heard_.find(pair);
-  if (known == heard_.end() && heard_.size() >= kMostSenders) return Verdict::unknown;
+  if (known == heard_.end() && full()) return Verdict::unknown;
   Heard heard = known == heard_.end() ? Heard{.slot = heard_.size()} : known->second;
   if (const std::uint64_t key = number_of(*key_of(key_, robot)); heard.key != key) {
     heard = {.slot = heard.slot, .key = key};

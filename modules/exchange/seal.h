@@ -34,32 +34,8 @@ namespace saker::exchange {
 /// A sealed message is longer than its payload by this at most.
 constexpr std::size_t kSealBytes = 1 + 1 + kLongestName + 24 + 2 + 8 + 8 + 16;
 constexpr std::size_t kLongestPayload = 65000;
-
-/// Seals what one process sends. Its epoch is on the disk before it is used.
-class Sealer {
- public:
-  /// \param sender  this process's name in the team, of its own: 1 … kLongestName bytes
-  /// \param epoch_file  where the newest epoch is kept, its folder has to exist; empty: nowhere,
-  ///     for receivers that ask who lives (flight/link/session.h)
-  /// \param start_ms  of the system clock; nothing: now
-  /// Throws Error when the file cannot be read or written.
-  Sealer(const Key& key, std::string sender, const std::filesystem::path& epoch_file,
-         std::optional<std::int64_t> start_ms = std::nullopt);
-  ~Sealer();
-  Sealer(const Sealer&) = delete;
-  Sealer& operator=(const Sealer&) = delete;
-
-  /// Nothing when the payload is too long, or the channel names a robot whose key this is not.
-  [[nodiscard]] std::optional<std::string> seal(const std::string& channel,
-                                                std::string_view payload);
-
-  [[nodiscard]] const std::string& sender() const { return sender_; }
-
- private:
-  Key key_;
-  std::string sender_;
-  std::uint64_t epoch_ = 0, counter_ = 0;
-};
+/// An Opener knows so many senders, each for each robot's channel, and forgets none.
+constexpr std::size_t kMostSenders = 64;
 
 /// What became of a message that came in.
 enum class Verdict : std::uint8_t {
@@ -83,6 +59,37 @@ struct Opened {
   std::uint64_t epoch = 0, counter = 0;
 };
 
+/// Seals what one process sends. Its epoch is on the disk before it is used.
+class Sealer {
+ public:
+  /// \param sender  this process's name in the team, of its own: 1 … kLongestName bytes
+  /// \param epoch_file  where the newest epoch is kept, its folder has to exist; empty: nowhere,
+  ///     for receivers that ask who lives (flight/link/session.h)
+  /// \param start_ms  of the system clock; nothing: now
+  /// Throws Error when the file cannot be read or written.
+  Sealer(const Key& key, std::string sender, const std::filesystem::path& epoch_file,
+         std::optional<std::int64_t> start_ms = std::nullopt);
+  ~Sealer();
+  Sealer(const Sealer&) = delete;
+  Sealer& operator=(const Sealer&) = delete;
+
+  /// Nothing when the payload is too long, or the channel names a robot whose key this is not.
+  [[nodiscard]] std::optional<std::string> seal(const std::string& channel,
+                                                std::string_view payload);
+
+  [[nodiscard]] const std::string& sender() const { return sender_; }
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+
+  /// What is sealed with the same key: this process's own messages, and those of another that uses
+  /// its name, too. Whether it came before is not asked.
+  [[nodiscard]] Opened opened(const std::string& channel, std::string_view sealed) const;
+
+ private:
+  Key key_;
+  std::string sender_;
+  std::uint64_t epoch_ = 0, counter_ = 0;
+};
+
 /// Opens one message; whether it came before is not asked.
 /// \param own  the name under which this process seals
 [[nodiscard]] Opened unsealed(const Key& key, const std::string& own, const std::string& channel,
@@ -103,14 +110,14 @@ class Opener {
 
   [[nodiscard]] Opened open(const std::string& channel, std::string_view sealed);
 
+  /// Whoever it did not hear before is `unknown` from now on.
+  [[nodiscard]] bool full() const { return heard_.size() >= kMostSenders; }
   /// How many messages had this verdict.
   [[nodiscard]] long count(Verdict verdict) const {
     return counts_[static_cast<std::size_t>(verdict)];
   }
 
  private:
-  static constexpr std::size_t kMostSenders = 64;
-
   /// Who seals, with which robot's key.
   using Pair = std::pair<std::string, std::string>;
   /// What was heard of a pair, and with which key: a renewed one begins anew.

@@ -30,6 +30,23 @@ TEST(WriteDurably, IsReadableByItsOwnerOnly) {
   EXPECT_EQ(status.st_mode & 0777, 0600u);
 }
 
+TEST(WriteDurably, KeepsWhoMayReadWhatItReplacesButNeverEverybody) {
+  const auto file = test_folder() / "f";
+  struct stat status {};
+  for (const mode_t mode : {0640, 0664, 0600}) {
+    core::write_file(file, "before");
+    ASSERT_EQ(::chmod(file.c_str(), mode), 0);
+    ASSERT_TRUE(write_durably(file, "after", Access::kept));
+    ASSERT_EQ(::stat(file.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, mode & 0770);
+    EXPECT_EQ(core::read_file(file), "after");
+  }
+  std::filesystem::remove(file);
+  ASSERT_TRUE(write_durably(file, "new", Access::kept));
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+}
+
 TEST(WriteDurably, SaysWhereItCouldNotAndKeepsWhatWasThere) {
   const auto folder = test_folder();
   EXPECT_FALSE(write_durably(folder / "none" / "f", "x"));

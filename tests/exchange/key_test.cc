@@ -99,9 +99,9 @@ TEST(RobotsKey, RenewedItIsAnotherAndThatOfOthersStays) {
   const auto folder = test_folder();
   make_key_file(folder / "team");
   const Key before = read_key(folder / "team");
-  renew_key(folder / "team", "R1");
-  renew_key(folder / "team", "R3");
-  renew_key(folder / "team", "R1");
+  renew_key(folder / "team", "R1", folder / "r1");
+  renew_key(folder / "team", "R3", folder / "r3");
+  renew_key(folder / "team", "R1", folder / "r1");
   const Key after = read_key(folder / "team");
   EXPECT_EQ(after, before);
   EXPECT_EQ(after.renewed, (std::map<std::string, std::uint32_t>{{"R1", 2}, {"R3", 1}}));
@@ -111,12 +111,33 @@ TEST(RobotsKey, RenewedItIsAnotherAndThatOfOthersStays) {
             perms::owner_read | perms::owner_write);
 }
 
+TEST(RobotsKey, RenewedItIsInBothFilesAndWhoMayReadThemStays) {
+  const auto folder = test_folder();
+  make_key_file(folder / "team");
+  make_robot_key_file(read_key(folder / "team"), "R1", folder / "r1");
+  const auto group = perms::owner_read | perms::owner_write | perms::group_read;
+  std::filesystem::permissions(folder / "team", group);
+  renew_key(folder / "team", "R1", folder / "r1");
+  EXPECT_EQ(read_key(folder / "r1"), key_of(read_key(folder / "team"), "R1"));
+  EXPECT_EQ(std::filesystem::status(folder / "team").permissions(), group);
+  make_robot_key_file(read_key(folder / "team"), "R2", folder / "r1", Existing::replaced);
+  EXPECT_EQ(read_key(folder / "r1").robot, "R2");
+}
+
+TEST(RobotsKey, ThatCannotBeWrittenIsNotRenewed) {
+  const auto folder = test_folder();
+  make_key_file(folder / "team");
+  const std::string before = core::read_file(folder / "team");
+  EXPECT_THROW(renew_key(folder / "team", "R1", folder / "none" / "r1"), Error);
+  EXPECT_EQ(core::read_file(folder / "team"), before) << "the robot's key of before still holds";
+}
+
 TEST(RobotsKey, IsRenewedInTheTeamsFileAlone) {
   const auto folder = test_folder();
   make_robot_key_file(test_key(), "R1", folder / "r1");
-  EXPECT_THROW(renew_key(folder / "r1", "R1"), Error);
+  EXPECT_THROW(renew_key(folder / "r1", "R1", folder / "new"), Error);
   make_key_file(folder / "team");
-  EXPECT_THROW(renew_key(folder / "team", "no name"), Error);
+  EXPECT_THROW(renew_key(folder / "team", "no name", folder / "new"), Error);
 }
 
 TEST(RobotsKey, IsOnlyThatRobots) {
@@ -124,6 +145,15 @@ TEST(RobotsKey, IsOnlyThatRobots) {
   EXPECT_NO_THROW(require_key_of(r1, "R1"));
   EXPECT_NO_THROW(require_key_of(test_key(), "R2"));
   EXPECT_THROW(require_key_of(r1, "R2"), Error);
+}
+
+TEST(RobotsKey, OnlyTheTeamsInItsPlaceIsNoted) {
+  const auto folder = test_folder();
+  EXPECT_EQ(team_key_note(folder / "none"), "");
+  make_key_file(folder / "team");
+  make_robot_key_file(read_key(folder / "team"), "R1", folder / "r1");
+  EXPECT_EQ(team_key_note(folder / "r1"), "");
+  EXPECT_NE(team_key_note(folder / "team").find("team is the team's key"), std::string::npos);
 }
 
 TEST(RobotsKey, LinesThatSayNothingAreRefused) {

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 #include "flight/bus/exchange_messages.h"
+#include "saker/core/error.h"
 
 namespace saker::flight {
 namespace {
@@ -60,7 +64,7 @@ class ABaseStation : public testing::Test {
     store.emplace(store_file(config.base), 100);
     link.emplace(config.link, LinkEnd::End::ground, key, robots, 2,
                  [](const Address&, std::string_view) { return true; });
-    base.emplace(config, *store, robots, &*link);
+    base.emplace(config, *store, robots, [this] { return link->report(); });
     robots.subscribe<health_t>([this](const health_t& message) {
       health = message;
       return true;
@@ -144,6 +148,33 @@ TEST_F(ABaseStation, MoreRobotsThanTheCeilingAreRefusedAndCounted) {
   ASSERT_TRUE(third.store.append({"R3", exchange::StreamKind::history, 1}, "abc"));
   EXPECT_TRUE(run({&first, &second, &third}, [&] { return counted("robots_refused") > 0; }));
   EXPECT_TRUE(store->extents().empty());
+}
+
+TEST_F(ABaseStation, SaysWhomItRefusesWhereItKnowsAsManyNamesAsItCan) {
+  std::ostringstream log;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  for (std::size_t i = 0; i < exchange::kMostSenders + 2; ++i) {
+    const std::string name = fmt::format("X{}", i);
+    exchange::Sealer sealer(key, name, "");
+    for (int again = 0; again < 2; ++again) {
+      robots.publish_as(name, to_lcm(0, sealer.seal(name + "_EXCHANGE", "hello").value()));
+      Bus::handle({&robots}, milliseconds(0));
+    }
+  }
+  spdlog::set_default_logger(before);
+  EXPECT_EQ(log.str().find("X63 is refused"), std::string::npos) << log.str();
+  for (const char* line : {"X64 is refused: 64 names were heard here", "X65 is refused"}) {
+    const std::size_t at = log.str().find(line);
+    ASSERT_NE(at, std::string::npos) << log.str();
+    EXPECT_EQ(log.str().find(line, at + 1), std::string::npos) << "said twice";
+  }
+}
+
+TEST_F(ABaseStation, MoreRobotsThanItCanTellApartAreNoSetting) {
+  config.base.most_robots = static_cast<int>(exchange::kMostSenders) + 1;
+  EXPECT_THROW(BaseStation(config, *store, robots, {}), Error);
 }
 
 TEST_F(ABaseStation, SaysHealthWithinTheMessagesLimits) {

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import subprocess
+import tempfile
 import unittest
 
 IN_NAMESPACE = pathlib.Path(__file__).with_name("in_namespace.sh")
@@ -41,10 +42,20 @@ class Doctor(unittest.TestCase):
         self.assertTrue(line_of(run, "UDP port 7502").startswith("wrong"))
         self.assertTrue(line_of(run, "UDP port 7503").startswith("ok"))
 
+    def test_the_teams_key_on_a_robot_is_worse_than_its_own(self):
+        with tempfile.TemporaryDirectory(prefix="saker_doctor_") as folder:
+            team, own = f"{folder}/team.key", f"{folder}/R1.key"
+            subprocess.run([SAKER, "base", "key", "-o", team], check=True)
+            subprocess.run([SAKER, "base", "key", "--robot", "R1", "-o", own, "--set", f"exchange.key_file={team}"],
+                           check=True)
+            for key, word in ((team, "worse"), (own, "ok")):
+                run = doctor(command=(SAKER, "doctor", "--set", f"exchange.key_file={key}"))
+                self.assertTrue(line_of(run, "key").startswith(word), run.stdout)
+
     def test_every_subject_is_looked_at(self):
         run = doctor()
         for subject in ("multicast route", "multicast route of bulk", "receive buffer", "monotonic clock",
-                        "system clock", "locked memory", "real-time priority", "UDP port 7502", "UDP port 7503"):
+                        "system clock", "locked memory", "real-time priority", "UDP port 7502", "UDP port 7503", "key"):
             self.assertRegex(line_of(run, subject), "^(ok|worse|wrong) ")
 
     def test_the_status_is_one_exactly_when_something_is_wrong(self):

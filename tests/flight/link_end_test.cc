@@ -1,4 +1,8 @@
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
 #include <set>
+#include <sstream>
 
 #include "made_link.h"
 #include "saker/core/error.h"
@@ -14,6 +18,20 @@ class ALink : public MadeLink {
     MadeLink::SetUp();
     robot.emplace(*this, "R1", 1, exchange::key_of(team, "R1").value());
     robots = {&*robot};
+  }
+
+  /// Seconds until what both say from now on arrives; a robot in flight says MISSION at 5 Hz.
+  double back_after_s() {
+    heard.clear();
+    robot->heard.clear();
+    const auto begun = now;
+    while (now < begun + std::chrono::seconds(5)) {
+      say(*robot->bus, "R1_MISSION", std::to_string(time()));
+      say(*ground_bus, "R1_ORDER", std::to_string(time()));
+      step();
+      if (!on(heard, "R1_MISSION").empty() && !on(robot->heard, "R1_ORDER").empty()) break;
+    }
+    return std::chrono::duration<double>(now - begun).count();
   }
 
   std::optional<Robot> robot;
@@ -44,7 +62,7 @@ TEST_F(ALink, NothingThatMovesARobotOrThatItBelievesOfItselfGoesDown) {
 TEST_F(ALink, AGroundThatSaysMoreThanItMayIsNotBelieved) {
   run(1);
   exchange::Sealer sealer(team, "BASE", "");
-  Session session(3);
+  Session session(3, 1);
   const auto says = [&](const std::string& payload) {
     robot->end->receive(now, kGround, sealer.seal("R1_LINK", payload).value());
   };
@@ -186,6 +204,47 @@ TEST_F(ALink, IsThereAgainSoonWhicheverEndWasRestarted) {
   EXPECT_EQ(on(heard, "R1_STATE").back(), "after");
 }
 
+TEST_F(ALink, IsThereAgainAtOnceAfterAGoodbyeOfEitherEnd) {
+  run(1);
+  ground->say_goodbye();
+  run(0.02);
+  EXPECT_EQ(robot->end->connected(), 0);
+  start_ground();
+  EXPECT_LT(back_after_s(), 0.5);
+  robot->end->say_goodbye();
+  run(0.02);
+  EXPECT_EQ(ground->connected(), 0);
+  robot->start(*this);
+  EXPECT_LT(back_after_s(), 0.5);
+}
+
+TEST_F(ALink, IsThereAgainAfterAMissedHelloWhicheverEndWasKilled) {
+  run(1);
+  (void)back_after_s();
+  robot->start(*this);
+  EXPECT_LT(back_after_s(), 1.6) << "a hello, two messages of the robot";
+  start_ground();
+  EXPECT_LT(back_after_s(), 1.6);
+}
+
+TEST_F(ALink, SaysThatThereIsASecondRobotOnlyWhereBothAreHeard) {
+  std::ostringstream log;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  run(1);
+  for (int kill = 0; kill < 2; ++kill) {
+    robot->start(*this);
+    (void)back_after_s();
+  }
+  EXPECT_EQ(log.str().find("a second R1"), std::string::npos) << log.str();
+  Robot second(*this, "R1", 3, robot->key);
+  robots.push_back(&second);
+  run(5);
+  EXPECT_NE(log.str().find("a second R1 at 10.76.1.4:4000"), std::string::npos) << log.str();
+  spdlog::set_default_logger(before);
+}
+
 TEST_F(ALink, FollowsARobotToAnotherAddress) {
   run(1);
   robot->address.port = 5000;
@@ -210,7 +269,7 @@ TEST_F(ALink, FiguresFitHealth) {
   say(*robot->bus, "R1_STATE", "x");
   run(0.5);
   std::map<std::string, long> figures;
-  for (const auto& [name, value] : health(*ground)) {
+  for (const auto& [name, value] : health(ground->report())) {
     EXPECT_LE(name.size(), 24u);
     figures[name] = value;
   }
@@ -257,6 +316,28 @@ TEST(LinkConfiguration, WhatIsNoChannelOrNamedTwiceIsRefused) {
     config.up.push_back({channel, 1});
     EXPECT_NE(refusal(config, LinkEnd::End::ground), "") << channel;
   }
+}
+
+TEST(LinkConfiguration, AnOrderThatAnotherWouldReplaceIsRefused) {
+  LinkConfig config;
+  config.down.front().keep = 1;
+  EXPECT_EQ(refusal(config, LinkEnd::End::ground),
+            "link.down: channel _ORDER: keep 1, expected 2 or more: each order counts");
+}
+
+TEST(LinkConfiguration, ASilenceOfOneLostHelloIsNoLossOfTheLink) {
+  LinkConfig config;
+  config.lost_s = 2;
+  EXPECT_EQ(refusal(config, LinkEnd::End::ground),
+            "link.lost_s 2, expected 2.5 times link.hello_s or more");
+  config.hello_s = 0.8;
+  EXPECT_EQ(refusal(config, LinkEnd::End::ground), "");
+}
+
+TEST(LinkConfiguration, KnowsTheAddressesOfThisMachine) {
+  for (const char* own : {"127.0.0.1:7670", "127.8.0.1:7670", "0.0.0.0:7670"})
+    EXPECT_TRUE(is_own(address_of("link.ground", own))) << own;
+  EXPECT_FALSE(is_own(address_of("link.ground", "203.0.113.1:7670")));
 }
 
 TEST(LinkConfiguration, AnAddressThatIsNoneIsRefused) {

@@ -9,7 +9,7 @@ using Outcome = Session::Outcome;
 using Steady = Session::Steady;
 using std::chrono::milliseconds;
 
-constexpr double kLost_s = 3;
+constexpr double kLost_s = 3, kHello_s = 1;
 
 /// One end as it lives now: what it says carries its epoch and a counter, as if it were unsealed.
 struct Life {
@@ -18,11 +18,14 @@ struct Life {
   [[nodiscard]] exchange::Opened says(const std::string& body = "") {
     return {exchange::Verdict::genuine, "R1", session.payload(body), epoch, ++counter};
   }
+  [[nodiscard]] exchange::Opened says_goodbye() {
+    return {exchange::Verdict::genuine, "R1", session.goodbye(), epoch, ++counter};
+  }
   [[nodiscard]] exchange::Opened answers(const exchange::Opened& message) {
     return {exchange::Verdict::genuine, "BASE", session.answer(message), epoch, ++counter};
   }
 
-  Session session{kLost_s};
+  Session session{kLost_s, kHello_s};
   std::uint64_t epoch, counter = 0;
 };
 
@@ -30,6 +33,7 @@ class TwoEndsOfALink : public testing::Test {
  protected:
   /// Until both know that the other one lives.
   void join(Life& robot, Life& ground) {
+    if (!robot.session.alive(now)) robot.session.end();  // as its end does when it notices
     const auto call = robot.says();
     ASSERT_EQ(ground.session.open(now, call).outcome, Outcome::asks);
     ASSERT_EQ(robot.session.open(now, ground.answers(call)).outcome, Outcome::begun);
@@ -115,10 +119,39 @@ TEST_F(TwoEndsOfALink, OfTwoOfOneNameTheFirstIsHeardUntilItIsSilent) {
   EXPECT_EQ(ground.session.open(now, first.says()).outcome, Outcome::taken);
   now += milliseconds(3100);
   EXPECT_EQ(ground.session.open(now, refused).outcome, Outcome::asks) << "its challenge is used";
+  second.session.end();
   const auto again = second.says();
   EXPECT_EQ(ground.session.open(now, again).outcome, Outcome::asks);
   (void)second.session.open(now, ground.answers(again));
   EXPECT_EQ(ground.session.open(now, second.says()).outcome, Outcome::begun);
+}
+
+TEST_F(TwoEndsOfALink, AfterAGoodbyeTheNextLifeBeginsAtOnce) {
+  Life first(1), second(5), ground(2);
+  join(first, ground);
+  const auto goodbye = first.says_goodbye();
+  EXPECT_EQ(ground.session.open(now, goodbye).outcome, Outcome::goodbye);
+  EXPECT_FALSE(ground.session.alive(now));
+  join(second, ground);
+  EXPECT_EQ(ground.session.open(now, goodbye).outcome, Outcome::asks) << "a recording of it";
+  EXPECT_TRUE(ground.session.alive(now));
+}
+
+TEST_F(TwoEndsOfALink, OneThatLetItsHelloPassGivesWayToOneThatProvedItLives) {
+  Life first(1), second(5), stranger(6), ground(2);
+  join(first, ground);
+  const auto call = second.says();
+  EXPECT_EQ(ground.session.open(now, call).outcome, Outcome::asks);
+  (void)second.session.open(now, ground.answers(call));
+  const auto proof = second.says();
+  EXPECT_EQ(ground.session.open(now, proof).outcome, Outcome::second);
+  now += milliseconds(1000);
+  EXPECT_EQ(ground.session.open(now, second.says()).outcome, Outcome::second);
+  now += milliseconds(200);
+  EXPECT_EQ(ground.session.open(now, proof).outcome, Outcome::asks) << "a recording of it";
+  EXPECT_EQ(ground.session.open(now, stranger.says()).outcome, Outcome::asks);
+  EXPECT_EQ(ground.session.open(now, second.says()).outcome, Outcome::begun);
+  EXPECT_EQ(ground.session.open(now, first.says()).outcome, Outcome::asks);
 }
 
 TEST_F(TwoEndsOfALink, WhatIsTooShortForChallengesIsNothing) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "flight/orders/order_sender.h"
 #include "made_folder.h"
 #include "saker/core/error.h"
@@ -17,8 +19,9 @@ using State = OrderSender::State;
 class AGround : public testing::Test {
  protected:
   void SetUp() override {
-    key.fill(3);
-    sender.emplace(OrderSenderConfig{}, bus, key, "GROUND", folder.path());
+    exchange::make_key_file(key_file);
+    key = exchange::read_key(key_file);
+    sender.emplace(OrderSenderConfig{}, bus, key_file, "GROUND", folder.path());
     opener.emplace(key, "R1", folder / "window");
     bus.subscribe<order_t>([this](const order_t& message) {
       const OpenedOrder open = opened(*opener, "R1", message, message.utime, 0, 2);
@@ -49,6 +52,7 @@ class AGround : public testing::Test {
   [[nodiscard]] State state(std::int64_t id) const { return sender->progress(id).state; }
 
   MadeFolder folder;
+  const std::filesystem::path key_file = folder / "team.key";
   exchange::Key key{};
   Bus bus = Bus::in_memory("R1");
   std::optional<OrderSender> sender;
@@ -125,18 +129,78 @@ TEST_F(AGround, KeepsTheLastOrdersOnly) {
 
 TEST_F(AGround, OneThatBeginsAnewIsHeardAtOnce) {
   send(OrderKind::hold);
-  sender.emplace(OrderSenderConfig{}, bus, key, "GROUND", folder.path());
+  sender.emplace(OrderSenderConfig{}, bus, key_file, "GROUND", folder.path());
   const std::int64_t id = send(OrderKind::resume);
   EXPECT_EQ(heard.back(), (Order{id, OrderKind::resume}));
 }
 
+TEST_F(AGround, IsToldThatAnotherProcessOfItsNameOrdersAndIsHeardAgainWithItsNextOrder) {
+  bus.subscribe<order_t>([this](const order_t& message) {
+    sender->hear("R1", message);
+    return true;
+  });
+  const std::int64_t first = send(OrderKind::hold);
+  run(milliseconds(1000));
+  EXPECT_EQ(state(first), State::sending) << "its own orders are no other's";
+  std::filesystem::create_directory(folder / "other");
+  std::this_thread::sleep_for(milliseconds(2));  // a later life
+  OrderSender other({}, bus, key_file, "GROUND", folder / "other");
+  (void)other.send("R1", OrderKind::resume, now);
+  run(milliseconds(10));
+  EXPECT_EQ(state(first), State::overtaken);
+  EXPECT_NE(sender->progress(first).text.find("another process orders as GROUND"),
+            std::string::npos);
+  std::this_thread::sleep_for(milliseconds(2));
+  const std::int64_t next = send(OrderKind::abort);
+  EXPECT_EQ(heard.back(), (Order{next, OrderKind::abort}));
+}
+
+TEST_F(AGround, SealsByARenewedKeyWithoutARestart) {
+  (void)send(OrderKind::hold);
+  exchange::renew_key(key_file, "R1", folder / "R1.key");
+  opener.emplace(exchange::read_key(folder / "R1.key"), "R1", folder / "renewed");
+  const std::int64_t id = send(OrderKind::abort);
+  EXPECT_EQ(heard.back(), (Order{id, OrderKind::abort}));
+}
+
 TEST_F(AGround, RefusesANameThatIsNoneAndAFolderThatIsNotThere) {
   const auto made = [&](const std::string& name, const std::filesystem::path& where) {
-    OrderSender{OrderSenderConfig{}, bus, key, name, where};
+    OrderSender{OrderSenderConfig{}, bus, key_file, name, where};
   };
   EXPECT_THROW(made("ground station", folder.path()), Error);
   EXPECT_THROW(made("", folder.path()), Error);
   EXPECT_THROW(made("GROUND", folder / "nowhere"), Error);
+}
+
+class FilesOfASender : public testing::Test {
+ protected:
+  [[nodiscard]] SenderFiles files(const std::string& key, const std::string& kept = "") const {
+    return sender_files(key, kept, installed);
+  }
+
+  MadeFolder folder;
+  InstalledBase installed{folder / "etc.key", folder / "var"};
+};
+
+TEST_F(FilesOfASender, AreTheInstalledBasesWhereNoOtherKeyIsThere) {
+  exchange::make_key_file(installed.key);
+  EXPECT_EQ(files("team.key").key, installed.key);
+  EXPECT_EQ(files("team.key").folder, installed.folder);
+  EXPECT_EQ(files(installed.key).folder, installed.folder) << "named by hand";
+}
+
+TEST_F(FilesOfASender, AreThoseConfiguredWhereTheyAreThere) {
+  exchange::make_key_file(installed.key);
+  exchange::make_key_file(folder / "own.key");
+  EXPECT_EQ(files(folder / "own.key").key, folder / "own.key");
+  EXPECT_EQ(files(folder / "own.key").folder, folder.path());
+  EXPECT_EQ(files(folder / "own.key", "kept").folder, "kept");
+  EXPECT_EQ(files("team.key", "kept").folder, "kept");
+}
+
+TEST_F(FilesOfASender, AreNamedAsConfiguredWhereThereIsNoKey) {
+  EXPECT_EQ(files("team.key").key, "team.key");
+  EXPECT_EQ(files("team.key").folder, ".");
 }
 
 }  // namespace

@@ -73,7 +73,6 @@ class RadioTest(NamespaceTest):
         self.make_robot_key()
 
     def make_robot_key(self, *words):
-        self.robot_key.unlink(missing_ok=True)
         subprocess.run([BIN / "saker", "base", "key", "--robot", "R1", *words, "-o", self.robot_key, "--set",
                         f"exchange.key_file={self.key}"], check=True, capture_output=True)
 

@@ -225,7 +225,12 @@ class Clients(GroundTest):
     async def test_by_another_interface_the_key_is_needed(self):
         self.robot()
         _, address = self.ground("--listen", "127.0.0.1")
-        self.assertRegex(address, r"^https://127\.0\.0\.1:\d+/\?key=[0-9a-f]{32}$")
+        self.assertRegex(address, r"^https://127\.0\.0\.1:\d+/$")
+        key = (self.folder / "ground/address.key").read_text().strip()
+        self.assertRegex(key, r"^[0-9a-f]{32}$")
+        self.assertEqual((self.folder / "ground/address.key").stat().st_mode & 0o777, 0o600)
+        self.assertNotIn(key, (self.folder / "ground.log").read_text())
+        address += f"?key={key}"
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         context.load_verify_locations(self.folder / "ground/certificate-127.0.0.1.pem")  # which names the address
         async with Client(socket_of(address), ssl=context, origin="https://app.foxglove.dev") as client:
@@ -235,6 +240,17 @@ class Clients(GroundTest):
             with self.assertRaises(Exception, msg=wrong):
                 async with Client(re.sub(r"\?.*", wrong, socket_of(address)), ssl=context):
                     pass
+
+    def test_the_key_of_the_address_is_said_on_a_terminal_alone(self):
+        ours, its = os.openpty()
+        process = self.start(BIN / "saker-ground", "--port", 0, "--listen", "127.0.0.1", "--set",
+                             f"ground.folder={self.folder / 'ground'}", stdout=its, stderr=subprocess.DEVNULL)
+        with open(ours) as terminal:
+            address = terminal.readline().strip()
+            os.close(its)
+        key = (self.folder / "ground/address.key").read_text().strip()
+        self.assertRegex(address, rf"^https://127\.0\.0\.1:\d+/\?key={key}$")
+        self.assertEqual(self.stop(process), 0)
 
     @on
     async def test_twenty_clients_and_bad_ones_among_them(self):

@@ -161,6 +161,12 @@ class Units(unittest.TestCase):
         self.run("systemctl", "start", FLIGHT)
         self.assertIn("no key of a team at /etc/saker/team.key: this flight tells nobody", self.said(FLIGHT))
 
+    def test_an_order_goes_out_as_the_page_says(self):
+        words = ["runuser", "-u", "saker", "--", "saker", "order", "R1", "hold"]
+        self.assertIn(f"\n{' '.join(words)} ", (container.ROOT / "docs/deploy.md").read_text())
+        ran = self.run(*words, check=False)
+        self.assertEqual((ran.returncode, ran.stdout), (1, "R1 hold no answer: nothing is heard of it\n"), ran.stderr)
+
     def test_killed_on_the_ground_it_is_restarted(self):
         self.simulate()
         self.run("pkill", "-KILL", "-x", "saker-sim")  # no packet comes

@@ -68,8 +68,12 @@ int make_key(const BaseOptions& options, const CommonOptions& common) {
     return 0;
   }
   const std::string team_file = read_configuration(common).exchange.key_file;
-  if (options.renew) exchange::renew_key(team_file, options.robot);
-  exchange::make_robot_key_file(exchange::read_key(team_file), options.robot, file);
+  if (options.renew) {
+    exchange::renew_key(team_file, options.robot, file);
+  } else {
+    const auto existing = common.force ? exchange::Existing::replaced : exchange::Existing::refused;
+    exchange::make_robot_key_file(exchange::read_key(team_file), options.robot, file, existing);
+  }
   return 0;
 }
 

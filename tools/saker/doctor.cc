@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "flight/bus/machine.h"
+#include "flight/orders/order_sender.h"
+#include "saker/exchange/key.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 
@@ -24,9 +26,19 @@ void print(const Finding& finding) {
   if (finding.weight != Weight::fine) fmt::print("{:<6} mend with: {}\n", "", finding.remedy);
 }
 
+/// Of a robot: the one that is configured or, where that is not there, the installed one.
+Finding check_key(const flight::ExchangeConfig& config) {
+  const auto file = flight::sender_files(config.key_file, config.folder).key;
+  const std::string note = exchange::team_key_note(file);
+  if (note.empty()) return {"key", Weight::fine, "the team's is not here", ""};
+  return {"key", Weight::drawback, note,
+          "saker base key --robot NAME -o FILE at the base, where this one belongs, and FILE here"};
+}
+
 int doctor(const CommonOptions& common) {
-  const flight::MachineNeeds needs{.bus = read_configuration(common).bus};
-  const std::vector<Finding> findings = flight::check_machine(needs);
+  const flight::ProcessConfig config = read_configuration(common);
+  std::vector<Finding> findings = flight::check_machine({.bus = config.bus});
+  findings.push_back(check_key(config.exchange));
   for (const Finding& finding : findings) print(finding);
   const auto grounding = std::count_if(findings.begin(), findings.end(), [](const Finding& f) {
     return f.weight == Weight::grounding;

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include "flight/orders/order_sender.h"
 #include "saker/core/error.h"
-#include "saker/exchange/key.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 
@@ -23,13 +21,6 @@ struct OrderOptions {
 };
 
 constexpr std::chrono::milliseconds kLook{20};  // at what the network brings
-
-/// Where the seal's counter is: what else this team's member keeps, or beside the key.
-std::filesystem::path folder_of(const flight::ExchangeConfig& config) {
-  if (!config.folder.empty()) return config.folder;
-  const std::filesystem::path folder = std::filesystem::path(config.key_file).parent_path();
-  return folder.empty() ? "." : folder;
-}
 
 OrderSender::Progress wait_for(OrderSender& sender, flight::Bus& bus, std::int64_t id) {
   while (!is_over(sender.progress(id).state)) {
@@ -54,9 +45,13 @@ int order(const OrderOptions& options, const CommonOptions& common) {
   flight::Bus bus(config.bus, options.robot);
   flight::OrderSenderConfig timing;
   timing.deadline = std::chrono::milliseconds(static_cast<long>(1e3 * options.wait_s));
-  OrderSender sender(timing, bus, exchange::read_key(config.exchange.key_file), options.name,
-                     folder_of(config.exchange));
+  const auto files = flight::sender_files(config.exchange.key_file, config.exchange.folder);
+  OrderSender sender(timing, bus, files.key, options.name, files.folder);
   bus.subscribe<mission_t>([&](const mission_t& message) {
+    sender.hear(options.robot, message);
+    return true;
+  });
+  bus.subscribe<order_t>([&](const order_t& message) {
     sender.hear(options.robot, message);
     return true;
   });
