@@ -5,6 +5,7 @@
 #include "flight/orders/order_messages.h"
 #include "flight_viewers/scratch_folder.h"
 #include "saker/core/error.h"
+#include "saker/exchange/key.h"
 
 namespace saker::flight::ground {
 namespace {
@@ -16,9 +17,8 @@ using State = OrderLine::State;
 /// A line of the team's key on a network without sockets; time is made.
 struct TeamOrderLineTest : ::testing::Test {
   TeamOrderLineTest() {
-    exchange::Key key{};
-    key.fill(3);
-    line.emplace(bus, key, "GROUND", folder.path());
+    exchange::make_key_file(folder / "team.key");
+    line.emplace(bus, folder / "team.key", "GROUND", folder.path());
     bus.subscribe_all<order_t>([this](const std::string& robot, const order_t&) {
       sent.push_back(robot);
       return true;
@@ -93,10 +93,17 @@ TEST_F(TeamOrderLineTest, EveryKindOfTheDeskCanBeSent) {
     EXPECT_GT(line->send("R1", kind, now), 0) << kind;
 }
 
-TEST(TeamOrderLine, NeedsAFolderForItsCounter) {
+TEST(TeamOrderLine, NeedsAFolderForItsEpoch) {
   const testing::ScratchFolder folder;
   Bus bus = Bus::in_memory("GROUND");
-  EXPECT_THROW(TeamOrderLine(bus, exchange::Key{}, "GROUND", folder / "none"), Error);
+  exchange::make_key_file(folder / "team.key");
+  EXPECT_THROW(TeamOrderLine(bus, folder / "team.key", "GROUND", folder / "none"), Error);
+}
+
+TEST(TeamOrderLine, NeedsTheTeamsKey) {
+  const testing::ScratchFolder folder;
+  Bus bus = Bus::in_memory("GROUND");
+  EXPECT_THROW(TeamOrderLine(bus, folder / "team.key", "GROUND", folder.path()), Error);
 }
 
 }  // namespace
