@@ -66,6 +66,11 @@ class Client:
             except asyncio.TimeoutError:
                 pass
 
+    async def drain(self):
+        """Takes what comes and looks at none of it, until it is cancelled."""
+        while True:
+            await self.socket.recv()
+
     async def newest(self, topic, so=lambda message: True, seconds=10):
         """The newest message of a topic that is so."""
         await self.until(lambda: any(t == topic and so(m) for t, _, m in self.messages), seconds)
