@@ -277,7 +277,7 @@ class Clients(GroundTest):
                 with socket.create_connection((host, int(port))) as s:
                     s.sendall(os.urandom(3000))
                 bad = await Client(socket_of(address)).__aenter__()
-                await bad.socket.send(os.urandom(200))
+                await bad.socket.send(b"\xff" + os.urandom(199))  # no operation of the protocol
                 await asyncio.sleep(0.1)
             await asyncio.sleep(30)  # what the kernel keeps for the deaf one fills first
             await ended(*hear)
