@@ -33,29 +33,23 @@ RobotView* RobotViews::add(const std::string& robot, std::shared_ptr<const Site>
 template <class Message>
 bool RobotViews::hear_as(RobotView& view, Bytes bytes, double t) {
   const auto message = decoded<Message>(bytes);
-  const bool fine = message && view.hear(*message, t);
-  if (!fine) view.count_malformed();
-  return fine;
+  return message && view.hear(*message, t);
+}
+
+template <class Message, class Joiner>
+bool RobotViews::hear_joined(RobotView& view, Joiner& joiner, Bytes bytes, double t) {
+  auto message = decoded<Message>(bytes);
+  if (!message) return false;
+  if (auto whole = joiner.add(std::move(*message))) view.hear(std::move(*whole), t);
+  return joiner.accepted();
 }
 
 bool RobotViews::hear_scan(RobotView& view, Bytes bytes, double t) {
-  auto message = decoded<scan_t>(bytes);
-  ScanJoiner& joiner = scan_joiners_[view.state().robot];
-  auto scan = message ? joiner.add(std::move(*message)) : std::nullopt;
-  if (scan) view.hear(std::move(*scan), t);
-  const bool fine = message && joiner.accepted();
-  if (!fine) view.count_malformed();
-  return fine;
+  return hear_joined<scan_t>(view, scan_joiners_[view.state().robot], bytes, t);
 }
 
 bool RobotViews::hear_occupancy(RobotView& view, Bytes bytes, double t) {
-  auto message = decoded<occupancy_t>(bytes);
-  OccupancyJoiner& joiner = occupancy_joiners_[view.state().robot];
-  auto grid = message ? joiner.add(std::move(*message)) : std::nullopt;
-  if (grid) view.hear(std::move(*grid), t);
-  const bool fine = message && joiner.accepted();
-  if (!fine) view.count_malformed();
-  return fine;
+  return hear_joined<occupancy_t>(view, occupancy_joiners_[view.state().robot], bytes, t);
 }
 
 bool RobotViews::hear(const std::string& channel, Bytes bytes, double t) {
@@ -78,7 +72,10 @@ bool RobotViews::hear(const std::string& channel, Bytes bytes, double t) {
   if (at->second == &RobotViews::hear_scan && !scans_) return true;
   if (at->second == &RobotViews::hear_occupancy && !occupancy_) return true;
   RobotView* const view = of(robot);
-  return view != nullptr && (this->*at->second)(*view, bytes, t);
+  if (view == nullptr) return false;
+  const bool fine = (this->*at->second)(*view, bytes, t);
+  if (!fine) view->count_malformed();
+  return fine;
 }
 
 void RobotViews::want_bulk(bool scans, bool occupancy) {

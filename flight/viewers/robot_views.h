@@ -40,6 +40,8 @@ class RobotViews {
  private:
   template <class Message>
   bool hear_as(RobotView& view, Bytes bytes, double t);
+  template <class Message, class Joiner>
+  bool hear_joined(RobotView& view, Joiner& joiner, Bytes bytes, double t);
   bool hear_scan(RobotView& view, Bytes bytes, double t);
   bool hear_occupancy(RobotView& view, Bytes bytes, double t);
 
