@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 #include "flight/bus/machine.h"
-#include "flight/orders/order_sender.h"
 #include "saker/exchange/key.h"
+#include "saker/exchange/robot_key.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 
@@ -26,12 +27,19 @@ void print(const Finding& finding) {
   if (finding.weight != Weight::fine) fmt::print("{:<6} mend with: {}\n", "", finding.remedy);
 }
 
+constexpr const char* kInstalledKey = "/etc/saker/robot.key";  // docs/deploy.md
+
 /// Of a robot: the one that is configured or, where that is not there, the installed one.
 Finding check_key(const flight::ExchangeConfig& config) {
-  const auto file = flight::sender_files(config.key_file, config.folder).key;
-  const std::string note = exchange::team_key_note(file);
-  if (note.empty()) return {"key", Weight::fine, "the team's is not here", ""};
-  return {"key", Weight::drawback, note,
+  std::error_code hidden;
+  std::filesystem::path file = config.key_file;
+  if (!std::filesystem::exists(exchange::robot_key_file(file).file, hidden)) file = kInstalledKey;
+  const auto key = exchange::robot_key_file(file);
+  if (key.note.empty()) return {"key", Weight::fine, "the team's is not here", ""};
+  if (exchange::team_key_note(key.file).empty())
+    return {"key", Weight::drawback, key.note,
+            fmt::format("mv {} {}", key.file.c_str(), file.c_str())};
+  return {"key", Weight::drawback, key.note,
           "saker base key --robot NAME -o FILE at the base, where this one belongs, and FILE here"};
 }
 
