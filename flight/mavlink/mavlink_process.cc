@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "flight/bus/counter.h"
 #include "flight/bus/messages.h"
 #include "flight/mavlink/host_clock.h"
 
@@ -17,13 +18,6 @@ constexpr int kMostReads = 64;                       // in one step
 std::optional<SigningKey> key_of(const std::string& file) {
   if (file.empty()) return std::nullopt;
   return read_signing_key(file);
-}
-
-counter_t counter(const char* name, long value) {
-  counter_t message{};
-  message.name = name;
-  message.value = value;
-  return message;
 }
 
 }  // namespace
