@@ -99,6 +99,9 @@ HealthFigures Executive::health_figures() const {
   figures.faults = LoopFaultLog::counters(loops_, Loop::Steady::now());
   if (safety_.lands_alone()) figures.faults.emplace_back("safety_lands_alone", 1);
   if (main_threw_ > 0) figures.faults.emplace_back("main_threw", main_threw_);
+  const auto vehicle = board_.vehicle.latest();
+  if (!vehicle || !autonomy::BatteryWatch::is_known(vehicle->battery_share))
+    figures.faults.emplace_back("battery_unknown", 1);
   figures.orders = {{"orders_refused", order_receiver_.refused()}};
   if (const auto sensor = sensor_line_.figures())
     figures.sensor = health_of(*sensor, HealthFigures::kMostSensor);

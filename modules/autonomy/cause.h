@@ -47,8 +47,9 @@ enum class Cause {
   recovered,
   ordered,  ///< by the operator, or a signal
   // Others than the executive.
-  order_refused,  ///< what an operator ordered may not be now
-  taken_over,     ///< a pilot, or a failsafe of the autopilot, flies
+  order_refused,    ///< what an operator ordered may not be now
+  taken_over,       ///< a pilot, or a failsafe of the autopilot, flies
+  battery_unknown,  ///< the flight controller does not say how much charge is left
 };
 
 /// One word, as MISSION shows it.
