@@ -20,7 +20,7 @@ enum class Cause {
   battery_empty,       ///< enough to land
   no_targets,          ///< no prior map, or no target in it
   nothing_classified,  ///< segmentation works, but gives next to no point a class
-  collision,           ///< the flight controller felt one
+  collision,           ///< a contact was felt
   vehicle_descends,    ///< the flight controller trusts no odometry and comes down by itself
   off_course,          ///< the vehicle does not follow its setpoints
   stopped,             ///< guidance stops on the way: the verdict, or there is none

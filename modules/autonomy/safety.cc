@@ -7,6 +7,7 @@ namespace saker::autonomy {
 namespace {
 
 constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
+constexpr double kContactHolds_s = 1;      // longer than safety is ever late
 constexpr double kDescent_mps = 0.5;       // slower than autopilots land
 constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
 
@@ -88,11 +89,23 @@ void Safety::find_battery(const SafetyInput& in, std::vector<Finding>& found) co
   }
 }
 
+/// By the accelerometer in flight, where the flight controller flies: who comes down meets the
+/// ground. A flight controller may have felt one, too.
+void Safety::find_contact(const SafetyInput& in, std::vector<Finding>& found) const {
+  const VehicleMode mode = in.vehicle.mode;
+  const bool lands = mode == VehicleMode::land || mode == VehicleMode::descend;
+  if ((in.vehicle.faults & kCollision) != 0) {
+    found.push_back(
+        {Cause::collision, SafetyAction::land, "the flight controller has felt a contact"});
+  } else if (in.flying && !lands && age_s(in.contact.stamp, in.now) <= kContactHolds_s) {
+    found.push_back({Cause::collision, SafetyAction::land,
+                     core::text("felt a contact, {:.0f} m/s²", in.contact.force_mps2)});
+  }
+}
+
 void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
   find_battery(in, found);
-  if ((in.vehicle.faults & kCollision) != 0) {
-    found.push_back({Cause::collision, SafetyAction::land, "the vehicle has hit something"});
-  }
+  find_contact(in, found);
   if (in.vehicle.mode == VehicleMode::descend) {
     const bool rejected = (in.vehicle.faults & kOdometryRejected) != 0;
     found.push_back({Cause::vehicle_descends, SafetyAction::land,

@@ -6,6 +6,7 @@
 
 #include "saker/autonomy/battery_watch.h"
 #include "saker/autonomy/cause.h"
+#include "saker/autonomy/contact_sense.h"
 #include "saker/core/config.h"
 #include "saker/core/text.h"
 #include "saker/core/vehicle.h"
@@ -23,7 +24,8 @@
 /// What is not known is never fine. A stamp that never came is older than any limit. A charge that
 /// is not said keeps the vehicle on the ground; in flight it falls by the drain measured, and after
 /// `battery_unknown_s` the vehicle returns. A place that is not a number is outside the geofence,
-/// off course, and no way home from it is known. A pose without status is lost.
+/// off course, and no way home from it is known. A pose without status is lost. Only a contact has
+/// to be felt.
 namespace saker::autonomy {
 
 /// Stamps of the newest of everything that must not stop; 0: never came.
@@ -115,6 +117,7 @@ struct SafetyInput {
   Heard heard;
   VehicleState vehicle;
   VehicleOdometry odometry;
+  Contact contact;                   ///< the last one that was felt
   std::optional<Setpoint> setpoint;  ///< the one that is flown
   Eigen::Vector3d place =
       Eigen::Vector3d::Constant(NAN);  ///< `world`: what the geofence is to hold
@@ -138,6 +141,7 @@ class Safety {
   void find_silence(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_vehicle(const SafetyInput& input, std::vector<Finding>& found) const;
   void find_battery(const SafetyInput& input, std::vector<Finding>& found) const;
+  void find_contact(const SafetyInput& input, std::vector<Finding>& found) const;
   [[nodiscard]] double way_home_share(const SafetyInput& input) const;
   void find_place(const SafetyInput& input, std::vector<Finding>& found) const;
   [[nodiscard]] static SafetyDecision worst(std::span<const Finding> findings);

@@ -23,6 +23,7 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   result.heard = input.heard;
   result.vehicle = input.vehicle;
   result.odometry = input.odometry;
+  result.contact = input.contact;
   result.setpoint = input.setpoint;
   result.flying = mission_.flying() && !mission_.taken_over();
   result.planning_due = planning_since_ != 0;

@@ -62,7 +62,18 @@ std::vector<SensorPacket> RecordedPlant::take_packets() {
       return packet.payload.size() != lidar::kImuPacketBytes;
     });
   }
+  if (!blow_mps2.isZero()) {
+    for (SensorPacket& packet : packets) add_blow(packet);
+  }
   return packets;
+}
+
+void RecordedPlant::add_blow(SensorPacket& packet) const {
+  if (packet.payload.size() != lidar::kImuPacketBytes) return;
+  for (lidar::ImuSample sample : lidar::decode_imu(packet.payload, vehicle_.sensor())) {
+    sample.acceleration += blow_mps2;
+    packet.payload = lidar::encode_imu(sample, vehicle_.sensor());
+  }
 }
 
 std::optional<VehicleState> RecordedPlant::take_state() {

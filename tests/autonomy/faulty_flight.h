@@ -38,10 +38,12 @@ class RecordedPlant : public SteppedPlant {
   void send(const Command& command) override;
 
   Link link = Link::up;
+  Eigen::Vector3d blow_mps2 = Eigen::Vector3d::Zero();  ///< lidar: added to what its IMU feels
   std::vector<Row> rows;
   std::function<void(const simulation::VehicleTruth&)> watch;  ///< at every step
 
  private:
+  void add_blow(SensorPacket& packet) const;
   [[nodiscard]] bool hears() const { return link == Link::up || link == Link::blind; }
 
   simulation::SimulatedVehicle& vehicle_;

@@ -197,10 +197,31 @@ TEST_F(SafetyTest, ReturnsWhileTheBatteryStillTakesItHomeWithAReserve) {
   EXPECT_EQ(far_away(config, NAN, 0.5).action, SafetyAction::hold);  // nowhere
 }
 
-TEST_F(SafetyTest, LandsAfterACollision) {
-  const auto hit = [](SafetyInput& input) { input.vehicle.faults = kCollision; };
+TEST_F(SafetyTest, LandsAfterAContactThatWasFelt) {
+  const auto hit = [](SafetyInput& input) { input.contact = {input.now - kStep, 20}; };
   EXPECT_EQ(pass(1, hit).cause, Cause::collision);
   EXPECT_EQ(pass(1, hit).action, SafetyAction::land);
+  const auto by_controller = [](SafetyInput& input) { input.vehicle.faults = kCollision; };
+  EXPECT_EQ(pass(1, by_controller).cause, Cause::collision);
+}
+
+TEST_F(SafetyTest, TheGroundThatItComesDownToIsNoContact) {
+  for (const VehicleMode mode : {VehicleMode::land, VehicleMode::descend}) {
+    SafetyInput input = good(now);
+    input.contact = {now, 20};
+    input.vehicle.mode = mode;
+    for (const Finding& finding : safety.findings(input))
+      EXPECT_NE(finding.cause, Cause::collision);
+  }
+}
+
+TEST_F(SafetyTest, AContactOfThePastIsOver) {
+  EXPECT_EQ(pass(1,
+                 [](SafetyInput& input) {
+                   input.contact = {input.now - 2 * kNanosecondsPerSecond, 20};
+                 })
+                .action,
+            SafetyAction::none);
 }
 
 // Hazard: Odometry | what the flight controller gets contradicts its inertial unit and barometer |
