@@ -8,7 +8,6 @@ namespace saker::autonomy {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr Time kMemory = 2 * kNanosecondsPerSecond;  // of samples: no scan comes so late
 constexpr double kLongestAhead_s = 0.05;  // of the newest sample; then it is taken to stay
 constexpr double kMostAheadOfNow_s =
     0.25;                              // a clock may lag while it follows packets that got faster
@@ -34,7 +33,7 @@ BodyPose::BodyPose(const BodyPoseConfig& config, const odometry::InertialConfig&
 void BodyPose::add(const lidar::ImuSample& sample, Time now) {
   if (to_seconds(sample.stamp) - to_seconds(now) > kMostAheadOfNow_s) return;
   if (!sample.acceleration.allFinite() || !sample.angular_velocity.allFinite()) return;
-  imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - kMemory));
+  imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - from_seconds(config_.coast_s)));
   if (started_) newest_.propagate(sample);
 }
 
@@ -81,13 +80,18 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.angular_velocity = T_body_lidar_.linear() * lidar.rate();
   const Matrix6d to_body = core::se3_adjoint(T_body_lidar_);
   result.covariance = to_body * lidar.pose_covariance() * to_body.transpose();
-  const double age = to_seconds(now - scan_.stamp());
-  const double silent = to_seconds(now - newest);
-  const bool fresh = age <= config_.fresh_s && std::abs(silent) <= kLongestAhead_s;
-  result.status = fresh                   ? VehicleOdometryStatus::ok
-                  : age <= config_.lost_s ? VehicleOdometryStatus::predicted
-                                          : VehicleOdometryStatus::lost;
+  result.status = status(now, result.covariance);
   return result;
+}
+
+VehicleOdometryStatus BodyPose::status(Time now, const Matrix6d& covariance) const {
+  const double age = to_seconds(now - scan_.stamp());
+  const bool heard = std::abs(to_seconds(now - newest_.stamp())) <= kLongestAhead_s;
+  if (age <= config_.fresh_s && heard) return VehicleOdometryStatus::ok;
+  const double sd = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  const bool coasts = heard && age <= config_.coast_s && sd <= config_.coast_sd_m;
+  const bool known = age <= config_.lost_s || coasts;
+  return known ? VehicleOdometryStatus::predicted : VehicleOdometryStatus::lost;
 }
 
 }  // namespace saker::autonomy

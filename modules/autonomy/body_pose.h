@@ -22,6 +22,8 @@ namespace saker::autonomy {
 struct BodyPoseConfig {
   double fresh_s = 0.4;
   double lost_s = 1.0;
+  double coast_sd_m = 0.5;
+  double coast_s = 6.0;
   double jump_m = 1.0;
   double jump_deg = 20;
   double sd_position_m = 0.03;
@@ -31,7 +33,11 @@ struct BodyPoseConfig {
   void visit(Visitor& v) {
     v.field("fresh_s", fresh_s, {0.1, 5}, "s",
             "age of the newest registered scan up to which the pose is ok: three scans, one late");
-    v.field("lost_s", lost_s, {0.2, 10}, "s", "age beyond which it is lost");
+    v.field("lost_s", lost_s, {0.2, 10}, "s",
+            "age beyond which it is lost, unless the inertial unit knows the place");
+    v.field("coast_sd_m", coast_sd_m, {0.01, 10}, "m",
+            "stated sd of the place up to which it does: what a vehicle at rest has about it");
+    v.field("coast_s", coast_s, {0.2, 60}, "s", "age beyond which it is lost in any case");
     v.field("jump_m", jump_m, {0.05, 20}, "m",
             "off the prediction: odometry began anew; taken over, reset counted");
     v.field("jump_deg", jump_deg, {1, 180}, "°", "the same for attitude");
@@ -56,11 +62,13 @@ class BodyPose {
   void correct(Time stamp, const SE3& T_odom_lidar, const Matrix6d& covariance);
 
   /// At `now`, propagated from the newest sample with its reading, but by 0.05 s at most: then its
-  /// stamp stays too. Not ok where the newest sample is that far ahead. Lost before the first
-  /// scan.
+  /// stamp stays too. Not ok where the newest sample is that far ahead. Lost before the first scan,
+  /// and where no scan was registered for so long that the stated covariance, or the silence of the
+  /// inertial unit, leaves the place open.
   [[nodiscard]] VehicleOdometry at(Time now) const;
 
  private:
+  [[nodiscard]] VehicleOdometryStatus status(Time now, const Matrix6d& covariance) const;
   [[nodiscard]] bool jumped(const SE3& predicted, const SE3& measured) const;
 
   BodyPoseConfig config_;

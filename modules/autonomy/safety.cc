@@ -115,9 +115,14 @@ void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) co
 }
 
 void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) const {
-  const bool known = in.odometry.status != VehicleOdometryStatus::lost &&
-                     age_s(in.odometry.stamp, in.now) <= config_.odometry_lost_s;
-  if (!known || age_s(in.heard.odometry, in.now) > config_.odometry_lost_s) {
+  const VehicleOdometry& odometry = in.odometry;
+  const double lost_s = config_.odometry_lost_s;
+  const bool known =
+      odometry.status != VehicleOdometryStatus::lost && age_s(odometry.stamp, in.now) <= lost_s;
+  // BodyPose says lost when its covariance grows; one that is not a number says nothing.
+  const bool coasts =
+      odometry.status == VehicleOdometryStatus::predicted && odometry.covariance.allFinite();
+  if (!known || (age_s(in.heard.odometry, in.now) > lost_s && !coasts)) {
     found.push_back(
         {Cause::odometry_lost, SafetyAction::silence,
          silence_text("registered scan", in.heard.odometry, in.now, config_.odometry_lost_s)});

@@ -66,8 +66,8 @@ struct SafetyConfig {
     v.setting("odometry_s", odometry_s, {0.15, 10}, "s",
               "After so long without a registered scan the vehicle holds.");
     v.setting("odometry_lost_s", odometry_lost_s, {0.2, 10}, "s",
-              "After so long without a registered scan no setpoint is sent: the inertial unit "
-              "alone drifts.");
+              "After so long without a registered scan no setpoint is sent, unless the inertial "
+              "unit knows the place.");
     v.setting("verdict_s", verdict_s, {0.15, 10}, "s",
               "The collision checker's verdict (10 Hz) may be silent for so long.");
     v.setting("occupancy_s", occupancy_s, {0.6, 30}, "s",

@@ -160,6 +160,63 @@ TEST(BodyPose, CoastsOnTheInertialUnitWhenScansStop) {
   EXPECT_LT(worst.position_m, 0.15);
 }
 
+/// Scans until 20 s, then inertial samples alone for so long; the pose at each.
+template <class Look>
+void coast(BodyPose& pose, const MadeSensors& sensors, double seconds, Look look) {
+  (void)fly(pose, sensors, 0.01, 0, 20);
+  for (Time now = from_seconds(20) + kImuStep; to_seconds(now) <= 20 + seconds; now += kImuStep) {
+    pose.add(sensors.imu(now), now);
+    look(pose.at(now), to_seconds(now));
+  }
+}
+
+double sd_of(const VehicleOdometry& odometry) {
+  return std::sqrt(odometry.covariance.bottomRightCorner<3, 3>().trace());
+}
+
+TEST(BodyPose, KnowsThePlaceFor3SecondsOnTheInertialUnitAndStatesHowWell) {
+  BodyPose pose({}, {}, mount());
+  coast(pose, MadeSensors(mount()), 3, [](const VehicleOdometry& odometry, double t) {
+    EXPECT_NE(odometry.status, VehicleOdometryStatus::lost) << t;
+    const Eigen::Vector3d off = odometry.T_odom_body.translation() - MadeFlightPath::position(t);
+    EXPECT_LT(off.norm(), 3 * sd_of(odometry)) << t;
+  });
+}
+
+TEST(BodyPose, IsLostWhenTheCovarianceItStatesIsBeyondTheBound) {
+  BodyPoseConfig config;
+  config.coast_s = 60;
+  BodyPose pose(config, {}, mount());
+  bool lost = false;
+  coast(pose, MadeSensors(mount()), 30, [&](const VehicleOdometry& odometry, double t) {
+    lost = lost || odometry.status == VehicleOdometryStatus::lost;
+    if (t > 20 + config.lost_s) EXPECT_EQ(lost, sd_of(odometry) > config.coast_sd_m) << t;
+  });
+  EXPECT_TRUE(lost);
+}
+
+TEST(BodyPose, IsLostAtTheLatestAfterTheLongestTimeOfCoasting) {
+  BodyPoseConfig config;
+  config.coast_s = 2;
+  config.coast_sd_m = 10;
+  BodyPose pose(config, {}, mount());
+  coast(pose, MadeSensors(mount()), 2.5, [&](const VehicleOdometry& odometry, double t) {
+    const bool over = t > 19.9 + config.coast_s + 0.005;
+    EXPECT_EQ(odometry.status == VehicleOdometryStatus::lost, over) << t;
+  });
+}
+
+TEST(BodyPose, AScanAfter3SecondsOfCoastingIsBelievedAndNoJump) {
+  BodyPose pose({}, {}, mount());
+  const MadeSensors sensors(mount());
+  coast(pose, sensors, 3, [](const VehicleOdometry&, double) {});
+  pose.correct(from_seconds(22.95), sensors.T_odom_lidar(22.95), Matrix6d::Zero());
+  const VehicleOdometry odometry = pose.at(from_seconds(23));
+  EXPECT_EQ(odometry.status, VehicleOdometryStatus::ok);
+  EXPECT_EQ(odometry.reset_counter, 0);
+  EXPECT_LT((odometry.T_odom_body.translation() - MadeFlightPath::position(23)).norm(), 0.05);
+}
+
 // What came of a revolution before the network fell silent: a scan some milliseconds after the last
 // one, off by some millimetres, and then none for half a second.
 TEST(BodyPose, AScanMillisecondsAfterTheLastOneTeachesNoWrongVelocity) {

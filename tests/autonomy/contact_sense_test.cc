@@ -118,7 +118,7 @@ TEST(ContactSenseOfAQuadrotor, HardFlightIsNoneAndAWallIsOne) {
   int i = 0;
   for (; i < 6000; ++i) {
     if (i % 400 == 0) thrusts.setConstant(rng.uniform(0, 16));
-    if (i % 1500 == 0) wind = i % 3000 == 0 ? 12 * Eigen::Vector3d(0.6, -0.8, 0) : still;
+    if (i % 1500 == 0) wind = i % 3000 == 0 ? Eigen::Vector3d(7.2, -9.6, 0) : still;
     step(i, Eigen::Vector3d::Zero());
   }
   ASSERT_EQ(sense.last().stamp, 0) << sense.last().force_mps2;

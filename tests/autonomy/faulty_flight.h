@@ -15,9 +15,10 @@ class RecordedPlant : public SteppedPlant {
  public:
   enum class Link {
     up,
-    deaf,   ///< nothing reaches the vehicle: the executive has died
-    blind,  ///< no scans come from it, all else does
-    gone    ///< nothing comes from it either: the plant has died
+    deaf,     ///< nothing reaches the vehicle: the executive has died
+    blind,    ///< no scans come from it, all else does
+    covered,  ///< its scans have no returns
+    gone      ///< nothing comes from it either: the plant has died
   };
   struct Row {
     simulation::VehicleTruth truth;
@@ -43,8 +44,9 @@ class RecordedPlant : public SteppedPlant {
   std::function<void(const simulation::VehicleTruth&)> watch;  ///< at every step
 
  private:
+  void cover(SensorPacket& packet) const;
   void add_blow(SensorPacket& packet) const;
-  [[nodiscard]] bool hears() const { return link == Link::up || link == Link::blind; }
+  [[nodiscard]] bool hears() const { return link != Link::deaf && link != Link::gone; }
 
   simulation::SimulatedVehicle& vehicle_;
   tools::SimulatedPlant plant_;

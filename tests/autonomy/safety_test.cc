@@ -91,8 +91,9 @@ TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
   }
 }
 
-// Hazard: Odometry | no registered scan for 1 s | no setpoints: the flight controller descends and
-//   lands, even when scans register again (`odometry_lost`) | –
+// Hazard: Odometry | no registered scan for 1 s, the inertial unit does not bridge it | no
+//   setpoints: the flight controller descends and lands, even when scans register again
+//   (`odometry_lost`) | –
 TEST_F(SafetyTest, SilencesTheSetpointsWhenOdometryIsLost) {
   const Time last = now;
   const auto frozen = [last](SafetyInput& input) { input.heard.odometry = last; };
@@ -100,6 +101,26 @@ TEST_F(SafetyTest, SilencesTheSetpointsWhenOdometryIsLost) {
   EXPECT_EQ(pass(0.2, frozen).action, SafetyAction::silence);
   const auto lost = [](SafetyInput& in) { in.odometry.status = VehicleOdometryStatus::lost; };
   EXPECT_EQ(pass(kStep * 1e-9, lost).cause, Cause::odometry_lost);
+}
+
+TEST_F(SafetyTest, HoldsWhileTheInertialUnitKnowsThePlaceAndEndsInSilenceWhenItDoesNot) {
+  const Time last = now;
+  const auto coasts = [last](SafetyInput& input) {
+    input.heard.odometry = last;
+    input.odometry.status = VehicleOdometryStatus::predicted;
+    input.odometry.covariance = Matrix6d::Identity() * 0.01;
+  };
+  EXPECT_EQ(pass(4, coasts).action, SafetyAction::hold);
+  const auto without_covariance = [&](SafetyInput& input) {
+    coasts(input);
+    input.odometry.covariance(3, 3) = NAN;
+  };
+  EXPECT_EQ(pass(kStep * 1e-9, without_covariance).action, SafetyAction::silence);
+  const auto lost = [&](SafetyInput& input) {
+    coasts(input);
+    input.odometry.status = VehicleOdometryStatus::lost;
+  };
+  EXPECT_EQ(pass(kStep * 1e-9, lost).action, SafetyAction::silence);
 }
 
 TEST_F(SafetyTest, EndsAHoldSomeSecondsAfterItsCauseIsGone) {
