@@ -45,8 +45,10 @@ const char* to_string(Cause cause) {
                                     "ordered",
                                     "order_refused",
                                     "taken_over",
-                                    "battery_unknown"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(Cause::battery_unknown) + 1);
+                                    "battery_unknown",
+                                    "takeoff_blocked",
+                                    "place_unfit"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Cause::place_unfit) + 1);
   return kNames[static_cast<int>(cause)];
 }
 

@@ -50,6 +50,8 @@ enum class Cause {
   order_refused,    ///< what an operator ordered may not be now
   taken_over,       ///< a pilot, or a failsafe of the autopilot, flies
   battery_unknown,  ///< the flight controller does not say how much charge is left
+  takeoff_blocked,  ///< the column above is not free, or not known to be
+  place_unfit,      ///< nothing to land on, by what was seen of the ground
 };
 
 /// One word, as MISSION shows it.
