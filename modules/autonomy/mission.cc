@@ -307,8 +307,8 @@ bool Mission::seeks(const MissionInput& input) {
 }
 
 void Mission::landing(const MissionInput& input) {
-  if (seeks(input)) return;
   const bool down = input.vehicle.stamp != 0 && !input.vehicle.armed;
+  if (!down && seeks(input)) return;
   if (down) {
     go(MissionPhase::done, Cause::landed, core::text("outcome: {}", to_string(outcome_)));
   } else if (now_ - input.plant_heard > from_seconds(config_.gone_s)) {
