@@ -12,6 +12,9 @@ constexpr double kLongestAhead_s = 0.05;  // of the newest sample; then it is ta
 constexpr double kMostAheadOfNow_s =
     0.25;                              // a clock may lag while it follows packets that got faster
 constexpr double kStartSpeed_mps = 1;  // sd at the first scan: on the ground, or in a hand
+/// Of a place, squared, in sd: with a scan's noise as configured, three times that of registration,
+/// flights stay below half of it.
+constexpr double kSurprising = 2;
 
 Matrix6d diagonal(double rotation_sd, double translation_sd) {
   Vector6d variance;
@@ -49,12 +52,22 @@ void BodyPose::correct(Time stamp, const SE3& T_odom_lidar, const Matrix6d& cova
     if (jumped(scan_.T_odom_lidar(), T_odom_lidar)) {
       ++reset_counter_;
       scan_.jump(T_odom_lidar, noise);
+      off_.setZero();
     } else {
+      weigh(T_odom_lidar, noise);
       scan_.correct(T_odom_lidar, noise);
     }
   }
   newest_ = scan_;
   for (const lidar::ImuSample& sample : imu_.samples()) newest_.propagate(sample);
+}
+
+/// Before a correction.
+void BodyPose::weigh(const SE3& measured, const Matrix6d& noise) {
+  const odometry::InertialFilter::Surprise surprise = scan_.surprise(measured, noise);
+  const bool large = surprise.square > kSurprising;
+  if (large && off_.dot(surprise.off) > 0) scan_.doubt(surprise, noise);
+  off_ = large ? surprise.off : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 bool BodyPose::jumped(const SE3& predicted, const SE3& measured) const {

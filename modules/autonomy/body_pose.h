@@ -15,8 +15,11 @@
 /// extrinsics, its velocity by the lever. Method: the error-state Kalman filter of
 /// `odometry/inertial_filter.h` from the newest registered scan on; a scan is weighed against the
 /// inertial unit by both covariances, however long ago the one before was: milliseconds (what came
-/// of a revolution before the network fell silent) or half a second. Cost: microseconds a sample; a
-/// correction integrates the samples since its stamp again.
+/// of a revolution before the network fell silent) or half a second. Two scans in a row that are
+/// off in the same direction by more than those of a flight ever are say that the inertial unit is
+/// not what it was: the filter doubts what it knows, its covariance says so, and biases are learnt
+/// anew. One scan alone may be wrong itself. Cost: microseconds a sample; a correction integrates
+/// the samples since its stamp again.
 namespace saker::autonomy {
 
 struct BodyPoseConfig {
@@ -70,14 +73,16 @@ class BodyPose {
  private:
   [[nodiscard]] VehicleOdometryStatus status(Time now, const Matrix6d& covariance) const;
   [[nodiscard]] bool jumped(const SE3& predicted, const SE3& measured) const;
+  void weigh(const SE3& measured, const Matrix6d& noise);
 
   BodyPoseConfig config_;
   SE3 T_body_lidar_;
   Matrix6d scan_noise_;
   odometry::ImuBuffer imu_;  // since the last registered scan, bounded
   bool started_ = false;
-  odometry::InertialFilter scan_;    // at the last registered scan
-  odometry::InertialFilter newest_;  // at the newest sample
+  odometry::InertialFilter scan_;                  // at the last registered scan
+  odometry::InertialFilter newest_;                // at the newest sample
+  Eigen::Vector3d off_ = Eigen::Vector3d::Zero();  // of the last scan, m, where it surprised
   int reset_counter_ = 0;
 };
 
