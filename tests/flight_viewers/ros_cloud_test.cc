@@ -150,7 +150,9 @@ TEST(RosCloud, AStampKeepsItsNanoseconds) {
 
 /// 2 beams of 2 columns, 10 ms apart; the second beam of the first column has no return.
 lidar::Scan made_sensed() {
-  lidar::Scan scan{.stamp = 7 * kNanosecondsPerSecond, .rows = 2, .columns = 2};
+  lidar::Scan scan;
+  scan.stamp = 7 * kNanosecondsPerSecond;
+  scan.rows = scan.columns = 2;
   scan.points = {{1, 0, 0}, {2, 0, 0}, {NAN, NAN, NAN}, {4, 0, 0}};
   scan.reflectivity = {0.25f, 0.5f, 0, 1};
   scan.offset_ns = {-10'000'000, 0, -10'000'000, 0};

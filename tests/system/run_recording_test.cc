@@ -19,7 +19,10 @@ constexpr Time kMs = 1'000'000;
 
 /// 3 beams of 4 columns, 10 ms apart; beam 1 of column 2 has no return.
 lidar::Scan made_scan(Time stamp) {
-  lidar::Scan scan{.stamp = stamp, .rows = 3, .columns = 4};
+  lidar::Scan scan;
+  scan.stamp = stamp;
+  scan.rows = 3;
+  scan.columns = 4;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
       const bool none = row == 1 && column == 2;
@@ -96,7 +99,7 @@ TEST_F(RunRecordings, ThereIsOneMessageOfAScanEach) {
 TEST_F(RunRecordings, AScanWithoutPointsIsLeftOut) {
   make_run(scratch_.path());
   RunRecording recording(scratch_ / "run.mcap", "R1");
-  recording.add({.stamp = from_seconds(100)});
+  recording.add(lidar::Scan());
   recording.add(made_scan(from_seconds(100.1)));
   recording.finish(scratch_.path(), flight::viewers::site_of({}, {}), {});
   const auto source = lidar::open_recording((scratch_ / "run.mcap").string());
