@@ -231,7 +231,7 @@ TEST(MavlinkTwoRobots, OnOneLineEachBridgeHearsAndOrdersItsOwnAutopilot) {
   message.base_mode = kArmedFlag;
   second.hear_bytes(first_autopilot.write(message)->span(), kNow, 0);
   EXPECT_FALSE(second.vehicle_state(kNow)->armed);
-  second.hear({.stamp = kNow, .id = 1, .kind = CommandKind::land}, kNow);
+  second.hear({.stamp = kNow, .id = 1, .kind = CommandKind::land, .height_m = NAN}, kNow);
   second.step(kNow, 0);
   FrameReader reader;
   int orders = 0;
