@@ -12,9 +12,7 @@ flight::ProcessConfig with(const std::string& setting) {
   return core::config_with_setting(setting, flight::ProcessConfig{});
 }
 
-TEST(ChangedValues, OfTheDefaultsThereAreNone) {
-  EXPECT_TRUE(changed_values({}).empty());
-}
+TEST(ChangedValues, OfTheDefaultsThereAreNone) { EXPECT_TRUE(changed_values({}).empty()); }
 
 TEST(ChangedValues, AScalarIsSaidWithItsKeyAndItsDefault) {
   const auto changed = changed_values(with("ground.port=9000"));

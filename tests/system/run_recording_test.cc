@@ -42,9 +42,9 @@ void make_run(const fs::path& folder) {
 }
 
 autonomy::RegisteredScan some_points(double t) {
-  return {.stamp = from_seconds(t),
-          .points = std::make_shared<const std::vector<Eigen::Vector3f>>(
-              3, Eigen::Vector3f(1, 2, 3))};
+  return {
+      .stamp = from_seconds(t),
+      .points = std::make_shared<const std::vector<Eigen::Vector3f>>(3, Eigen::Vector3f(1, 2, 3))};
 }
 
 class RunRecordings : public ::testing::Test {
