@@ -90,8 +90,8 @@ TEST(Messages, ACommandComesBack) {
 
 TEST(Messages, ATakeOffToNowhereIsRefused) {
   EXPECT_FALSE(from_lcm(to_lcm(Command{.stamp = 0, .id = 1, .kind = CommandKind::takeoff})));
-  EXPECT_FALSE(from_lcm(to_lcm(
-      Command{.stamp = 0, .id = 1, .kind = CommandKind::takeoff, .height_m = INFINITY})));
+  EXPECT_FALSE(from_lcm(
+      to_lcm(Command{.stamp = 0, .id = 1, .kind = CommandKind::takeoff, .height_m = INFINITY})));
 }
 
 TEST(Messages, AnAcknowledgementKeepsItsReasonUpToTheCeiling) {
