@@ -130,6 +130,7 @@ class MissionLockstep {
   lidar::SensorGate gate_;
   Ingestion ingestion_;
   BodyPose body_pose_;
+  ContactSense contact_;
   MotionLog motion_log_;
   LabelledWindow window_;
   std::shared_ptr<const uncertainty::Model> uncertainty_;  // null: nothing needs it

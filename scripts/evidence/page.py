@@ -67,12 +67,12 @@ def missions(entry):
 
 
 def real(entry):
-    lines = prose("""From [real.md](real.md) (`scripts/real`). One constant box: the error, had each listed vehicle been given the median length and
+    lines = prose("""From [real.md](real.md) (`scripts/real`). Median size: the error, had each listed vehicle been given the median length and
         width of all that are labelled in the drive.""")
     rows = [[f"`{name}`", of(row, "found", "listed"), m(row["size_mae_m"]), m(row["box_size_mae_m"]), m(row["length_bias_m"]),
              m(row["size_nees"], 2), m(row["window_mae_m"]), m(row["window_hull_mae_m"]), m(row["window_box_mae_m"]),
              m(row["sharpness_cm"], 2), row["commit"]] for name, row in entry["drives"].items()]
-    heads = ["drive", "found", "MAE of length and width m", "one constant box m", "bias of length m", "NEES of size", "single windows m",
+    heads = ["drive", "found", "MAE of length and width m", "median size m", "bias of length m", "NEES of size", "single windows m",
              "the same, paper's hull", "the same, a box of 4.5 m by 1.9 m", "odometry: sharpness cm", "commit"]
     lines += ["", *table(heads, rows), "", "Vehicle IoU:", ""]
     return lines + table([f"`{name}`" for name in entry["vehicle_iou"]], [[m(value, 2) for value in entry["vehicle_iou"].values()]])
@@ -80,13 +80,13 @@ def real(entry):
 
 def flights(entry):
     lines = prose(f"""{entry['flights']} simulated flights past parked vehicles, trees and poles (OS1-64, 40 s each), mapped from their captures. A true
-        object counts where 100 returns hit it. One box: the error, had all vehicles been given their mean size.""")
+        object counts where 100 returns hit it. Mean size: the error, had all vehicles been given that of them all.""")
     rows = []
     for name, row in entry["classes"].items():
         sizes = [m(row.get("size_mae_m")), m(row.get("constant_size_mae_m")), m(row.get("length_slope"), 2)]
         nees = [m(row["nees"][what], 2) for what in ("size", "place")]
         rows.append([name, of(row, "found", "truth"), of(row, "invented", "mapped"), row["duplicates"], *sizes, *nees])
-    heads = ["class", "found", "invented", "twice", "MAE of length and width m", "one box m", "slope of mapped on true length",
+    heads = ["class", "found", "invented", "twice", "MAE of length and width m", "mean size m", "slope of mapped on true length",
              "NEES of size", "NEES of place"]
     trajectory = entry["trajectory_m"]
     lines += ["", *table(heads, rows), ""]

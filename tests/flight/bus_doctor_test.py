@@ -55,7 +55,7 @@ class Doctor(unittest.TestCase):
     def test_every_subject_is_looked_at(self):
         run = doctor()
         for subject in ("multicast route", "multicast route of bulk", "receive buffer", "monotonic clock",
-                        "system clock", "locked memory", "real-time priority", "UDP port 7502", "UDP port 7503", "key"):
+                        "system clock", "locked memory", "real-time priority", "UDP port 7502", "UDP port 7503", "key", "autopilot"):
             self.assertRegex(line_of(run, subject), "^(ok|worse|wrong) ")
 
     def test_the_status_is_one_exactly_when_something_is_wrong(self):

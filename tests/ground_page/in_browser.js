@@ -213,8 +213,7 @@ test("several robots have their colours, and their maps become one", async t => 
 });
 
 test("without data it says what it waits for", async t => {
-  const {page, server} = await flying(t, {waits: false, server: {begin_s: 0}});
-  server.playing = false;  // nothing is mapped yet
+  const {page, server} = await flying(t, {waits: false, server: {begin_s: 0, playing: false}});  // stands still from the start: nothing is mapped yet
   for (const node of ["#empty", "#objects .none"]) await page.waitForFunction(([one, port]) => document.querySelector(one).textContent === `no data yet: waiting for R1_OBJECTS on 127.0.0.1:${port}`, [node, server.port]);
 });
 

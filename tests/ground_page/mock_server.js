@@ -15,9 +15,9 @@ const TICK_MS = 100;
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
 export class MockServer {
-  /// `runs`: MadeRuns; `mode`: "live" or "run"; `periods`: ticks between two messages of a topic; `time(t)`: the run's time when it begins.
-  constructor({runs, mode = "live", begin_s = 0, speed = 1, periods = {}, tick_ms = TICK_MS, answer_ms = 120}) {
-    Object.assign(this, {runs, mode, t: begin_s, speed, playing: true, tick_ms, answer_ms, periods: {...PERIODS, ...periods}});
+  /// `runs`: MadeRuns; `mode`: "live" or "run"; `playing`: whether their time goes on from the start; `periods`: ticks between two messages of a topic; `time(t)`: the run's time when it begins.
+  constructor({runs, mode = "live", begin_s = 0, speed = 1, playing = true, periods = {}, tick_ms = TICK_MS, answer_ms = 120}) {
+    Object.assign(this, {runs, mode, t: begin_s, speed, playing, tick_ms, answer_ms, periods: {...PERIODS, ...periods}});
     this.received = [];  // orders
     this.sent = {};      // newest by topic
     this.tick = 0;

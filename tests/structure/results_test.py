@@ -1,5 +1,10 @@
 """docs/results.md is the page of docs/results.json, no older than the code that it speaks of; who quotes from it quotes right."""
 
+import argparse
+import contextlib
+import importlib.machinery
+import importlib.util
+import io
 import json
 import os
 import pathlib
@@ -7,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import repository
 
@@ -166,6 +172,62 @@ class Parts(unittest.TestCase):
         self.assertEqual((entry["median"]["mae_m"], entry["worst"]["mae_m"]), (0.03, 0.05))
         self.assertEqual((entry["median"]["min_clearance_m"], entry["worst"]["min_clearance_m"]), (0.5, 0.4))
         self.assertEqual((entry["median"]["safety_late"], entry["worst"]["safety_late"]), (0.01, 0.03))
+
+
+def script():
+    """scripts/results as a module."""
+    loader = importlib.machinery.SourceFileLoader("results_script", str(repository.ROOT / "scripts/results"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+class Seeds(unittest.TestCase):
+    """What is flown of teams, by a program that notes the seeds it is asked for."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="saker_seeds_")
+        self.addCleanup(holder.cleanup)
+        self.out = pathlib.Path(holder.name)
+        self.script, self.asked, self.programs = script(), [], "as they were"
+        self.script.programs_sum = lambda: self.programs
+        patch = unittest.mock.patch.object(self.script.missions, "measure_team", self.fly)
+        patch.start()
+        self.addCleanup(patch.stop)
+
+    def fly(self, _saker, seeds, _threads, _out):
+        self.asked.append(seeds)
+        return {"found": len(seeds)}
+
+    def measure(self, seed, runs=2, again=False):
+        args = argparse.Namespace(out=self.out, docs=self.out, seed=seed, runs=runs, again=again, commit="1a2b3c4", threads=1)
+        with contextlib.redirect_stderr(io.StringIO()):
+            return self.script.measured("teams", args)
+
+    def test_two_runs_of_two_seeds_are_a_page_of_four(self):
+        self.assertEqual(self.measure(351)["seeds"], "351 to 352")
+        self.assertEqual(self.measure(353)["seeds"], "351 to 354")
+        self.assertEqual(self.asked, [[351, 352], [351, 352, 353, 354]])
+
+    def test_the_same_two_again_keep_the_four(self):
+        self.measure(351, runs=4)
+        self.assertEqual(self.measure(351)["seeds"], "351 to 354")
+
+    def test_an_interrupted_run_goes_on_with_the_seeds_it_began_with(self):
+        self.script.missions.measure_team = unittest.mock.Mock(side_effect=KeyboardInterrupt)
+        self.assertRaises(KeyboardInterrupt, self.measure, 351)
+        self.script.missions.measure_team = self.fly
+        self.assertEqual(self.measure(351)["seeds"], "351 to 352")
+
+    def test_seeds_with_a_gap_and_other_programs_are_refused(self):
+        self.measure(351)
+        for seed in (354, 350):
+            with self.assertRaisesRegex(SystemExit, "expected --seed 353"):
+                self.measure(seed)
+        self.programs = "others"
+        with self.assertRaisesRegex(SystemExit, "begun by other programs .1a2b3c4."):
+            self.measure(353)
+        self.assertEqual(self.measure(361, again=True)["seeds"], "361 to 362")
 
 
 if __name__ == "__main__":
