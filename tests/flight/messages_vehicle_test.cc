@@ -199,7 +199,7 @@ TEST(Messages, NoTrajectoryIsAnAnswer) {
 TEST(Messages, ATrajectoryWhoseEndIsNoTimeIsRefused) {
   const trajectory_t good = *to_lcm(some_trajectory(3), 0);
   ASSERT_TRUE(from_lcm(good).has_value());
-  for (const double step_s : {0.0, -0.05, 1e12, INFINITY, double{NAN}}) {
+  for (const double step_s : {0.0, -0.05, 1e12, double{INFINITY}, double{NAN}}) {
     trajectory_t wrong = good;
     wrong.step_s = step_s;
     EXPECT_FALSE(from_lcm(wrong).has_value()) << step_s;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "saker/core/error.h"
@@ -20,7 +21,7 @@ std::vector<SoakSample> made(double percent_an_hour, int more_handles = 0) {
                        .memory_mb = 200 * (1 + 0.01 * percent_an_hour * t_h) + ripple,
                        .handles = 20 + i % 2 + more_handles * i / 49,
                        .threads = 12,
-                       .waiting = i % 4,
+                       .waiting = static_cast<double>(i % 4),
                        .work = 0.5});
   }
   return samples;
