@@ -1,4 +1,4 @@
-"""Every fuzz target is built, has seeds, and says which sources it reads with."""
+"""Every fuzz target is built, has seeds, and says which sources it reads with; what is run under sanitisers is there."""
 
 import re
 import unittest
@@ -30,6 +30,16 @@ class Fuzz(unittest.TestCase):
         text = "".join((FUZZ / name).read_text() for name in ("seeds.cc", "flight_seeds.cc"))
         seeded = set(re.findall(r'(?:add|file)\("(\w+)"', text))
         self.assertEqual(sorted(seeded), targets())
+
+
+class Sanitisers(unittest.TestCase):
+    def test_each_part_is_a_program_of_tests(self):
+        text = (repository.ROOT / "scripts/test").read_text()
+        parts = {part for names in re.findall(r"^(?:bytes|flight)=\((.*)\)$", text, re.MULTILINE) for part in names.split()}
+        made = "".join(path.read_text() for path in repository.files("CMakeLists.txt"))
+        self.assertGreater(len(parts), 5)
+        for part in parts:
+            self.assertRegex(made, rf"saker_test\({part}\b")
 
 
 if __name__ == "__main__":
