@@ -8,6 +8,7 @@
 
 #include "flight/process/loop_report.h"
 #include "saker/autonomy/local_checker.h"
+#include "saker/autonomy/mission_lockstep.h"
 #include "saker/core/error.h"
 #include "saker/core/files.h"
 #include "saker/core/progress.h"
