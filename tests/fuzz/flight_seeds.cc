@@ -15,6 +15,7 @@
 #include "saker/exchange/journal_store.h"
 #include "saker/exchange/packed_history.h"
 #include "saker/objects/map_io.h"
+#include "saker/objects/smap_geometry.h"
 #include "seeds.h"
 
 namespace saker::lidar::fuzz {

@@ -3,6 +3,7 @@
 
 #include "fuzz.h"
 #include "saker/objects/map_io.h"
+#include "saker/objects/smap_geometry.h"
 
 /// A `.smap` as a whole, both versions, and a part of it; then what is behind its check sums: the
 /// first byte chooses which part the rest is.
