@@ -12,7 +12,9 @@
 #include "flight/mavlink/codec.h"
 #include "lcm_bytes.h"
 #include "saker/core/files.h"
+#include "saker/exchange/bytes.h"
 #include "saker/exchange/journal_store.h"
+#include "saker/exchange/message.h"
 #include "saker/exchange/packed_history.h"
 #include "saker/objects/map_io.h"
 #include "saker/objects/smap_geometry.h"
@@ -40,7 +42,10 @@ objects::ObjectMap made_map() {
   objects::ObjectMap map;
   for (int id = 0; id < 4; ++id) {
     const auto seen = exchange::some_measurement(rng, 0, id % 2 == 0);
-    objects::MapObject object{.id = id, .class_id = seen.class_id, .observations = 3};
+    objects::MapObject object;
+    object.id = id;
+    object.class_id = seen.class_id;
+    object.observations = 3;
     object.class_probability.assign(static_cast<std::size_t>(table.size()), 0);
     object.class_probability[object.class_id] = 1;
     object.model = seen.model;
