@@ -28,7 +28,7 @@ void read_sidecar(const std::filesystem::path& file) {
   (void)segmentation::check_sidecar(sidecar, file, kTable, "weights");
 }
 
-void read_calibration(const std::filesystem::path& file, lidar::SpinningKind kind) {
+void calibrate(const std::filesystem::path& file, lidar::SpinningKind kind) {
   lidar::SpinningModel model = lidar::spinning_model(kind);
   lidar::read_calibration(file, model);
 }
@@ -45,11 +45,11 @@ void lidar::fuzz::run(ByteView input) {
     case 's':
       return read_sidecar(file_of(rest, ".yaml"));
     case 'v':
-      return read_calibration(file_of(rest, ".yaml"), SpinningKind::kHdl64e);
+      return calibrate(file_of(rest, ".yaml"), SpinningKind::kHdl64e);
     case 'x':
-      return read_calibration(file_of(rest, ".xml"), SpinningKind::kHdl64e);
+      return calibrate(file_of(rest, ".xml"), SpinningKind::kHdl64e);
     case 'c':
-      return read_calibration(file_of(rest, ".csv"), SpinningKind::kPandar64);
+      return calibrate(file_of(rest, ".csv"), SpinningKind::kPandar64);
     default:
       return read_uncertainty(std::string(text_of(rest)));
   }
