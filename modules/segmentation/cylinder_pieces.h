@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "saker/objects/class_table.h"
-#include "saker/segmentation/network.h"
-#include "saker/segmentation/range_image.h"
+#include "saker/segmentation/pieces.h"
 
 namespace saker::segmentation {
 
@@ -39,8 +37,6 @@ class CylinderPieces {
     float width = 0;        ///< m, of the slimmest class; 0: none states one
     float relative_sd = 0;  ///< of the width
 
-    [[nodiscard]] float probability(const float* pixel) const;
-    void scale(float* pixel, float factor) const;
     [[nodiscard]] float log_likelihood(float width, float pixel_width) const;
   };
 
@@ -51,16 +47,18 @@ class CylinderPieces {
     float pixel_width = 0;  ///< that one pixel covers across
   };
 
-  void find_members(const RangeImage& image, const PixelProbabilities& pixels);
-  void grow(std::int32_t seed, const RangeImage& image, const Eigen::Vector3f& up);
-  [[nodiscard]] Extents measure(const RangeImage& image, const Eigen::Vector3f& up);
-  [[nodiscard]] float log_odds(const Extents& extents, const PixelProbabilities& pixels) const;
-  void refuse(PixelProbabilities& pixels) const;
-  void share(float log_odds, PixelProbabilities& pixels) const;
+  using Piece = std::vector<std::int32_t>;
+
+  [[nodiscard]] Extents measure(const Piece& piece, const RangeImage& image,
+                                const Eigen::Vector3f& up);
+  [[nodiscard]] float log_odds(const Piece& piece, const Extents& extents,
+                               const PixelProbabilities& pixels) const;
+  void share(const Piece& piece, float log_odds, PixelProbabilities& pixels) const;
 
   Group crowned_, bare_;
-  std::vector<std::uint8_t> member_;  ///< of each pixel: 1 while it waits for a piece
-  std::vector<std::int32_t> piece_;   ///< pixels of the piece at hand
+  std::vector<int> all_;  ///< classes of both
+  Pieces pieces_;
+  std::vector<std::uint8_t> member_;
   std::vector<float> scratch_;
 };
 

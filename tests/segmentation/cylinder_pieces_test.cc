@@ -4,50 +4,21 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "segmentation/drawn_picture.h"
 
 namespace saker::segmentation {
 namespace {
 
-constexpr int kRows = 40, kColumns = 1024, kTrunk = 2, kPole = 3;
-constexpr float kPitch = 2 * std::numbers::pi_v<float> / kColumns;
+using testing::kPitch, testing::kPole, testing::kTrunk;
 
-/// An empty image of a turning sensor, in which upright cylinders are drawn as the beams meet them.
-struct Picture {
-  objects::ClassTable table;
-  RangeImage image;
-  PixelProbabilities pixels;
-  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
-
-  Picture() {
-    image.rows = kRows, image.columns = kColumns;
-    image.points.assign(kRows * kColumns,
-                        Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
-    image.range.assign(kRows * kColumns, 0);
-    pixels = {table.size(), kRows, kColumns,
-              std::vector<float>(static_cast<std::size_t>(kRows) * kColumns * table.size(), 0)};
-  }
-
-  /// From -1 m up. \return the pixels, of which each has these probabilities and the rest as other
+/// With trunks and poles.
+struct Picture : testing::Picture {
   std::vector<std::size_t> draw(float azimuth, float distance, float width, float height,
                                 float trunk, float pole) {
-    std::vector<std::size_t> drawn;
-    for (int row = 0; row < kRows; ++row) {
-      const float z = distance * std::tan(kPitch * static_cast<float>(kRows / 2 - row));
-      if (z < -1 || z > height - 1) continue;
-      for (int column = 0; column < kColumns; ++column) {
-        const float off = std::remainder(kPitch * static_cast<float>(column) - azimuth,
-                                         2 * std::numbers::pi_v<float>);
-        if (std::abs(off) * distance > 0.5F * width) continue;
-        const std::size_t i = static_cast<std::size_t>(row) * kColumns + column;
-        image.points[i] = {distance * std::cos(azimuth + off), distance * std::sin(azimuth + off),
-                           z};
-        image.range[i] = image.points[i].norm();
-        float* p = &pixels.values[i * table.size()];
-        p[kTrunk] = trunk, p[kPole] = pole, p[0] = 1 - trunk - pole;
-        drawn.push_back(i);
-      }
+    const auto drawn = testing::Picture::draw(azimuth, distance, width, height);
+    for (const std::size_t i : drawn) {
+      at(i)[kTrunk] = trunk, at(i)[kPole] = pole, at(i)[0] = 1 - trunk - pole;
     }
     return drawn;
   }
@@ -70,8 +41,7 @@ TEST(CylinderPieces, ShareOneRatioWhateverSinglePixelsSay) {
   Picture picture;
   const auto piece = picture.draw(0.5F, 8, 0.35F, 2, 0.1F, 0.8F);
   for (std::size_t k = 0; k < piece.size(); k += 3) {
-    std::swap(picture.pixels.values[piece[k] * picture.table.size() + kTrunk],
-              picture.pixels.values[piece[k] * picture.table.size() + kPole]);
+    std::swap(picture.at(piece[k])[kTrunk], picture.at(piece[k])[kPole]);
   }
   picture.decide();
   for (const std::size_t i : piece) {
