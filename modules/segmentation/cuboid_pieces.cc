@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kLikely = 0.5F;    // of all cuboid classes together
 constexpr float kLowShare = 0.6F;  // of the height of a class: what two rows of others leave to see
-constexpr float kSure = 0.8F;      // mean probability of a low piece's pixels
+constexpr float kSure = 0.7F;      // mean probability of a low piece's pixels
 constexpr PieceReach kReach{.rows = 3, .columns = 3, .across = 0.6F, .rise = 1.0F};
 
 }  // namespace

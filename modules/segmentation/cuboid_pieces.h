@@ -13,7 +13,7 @@ namespace saker::segmentation {
 /// A piece is what hangs together of the pixels that are more likely a cuboid than not. Fences,
 /// hedges and poles that are taken for vehicles come in low pieces of which the pixels are unsure;
 /// low pieces of true vehicles, behind others, are sure ones. A piece that shows less than 0.6 of
-/// the height of its class (`size_m`), at a mean probability under 0.8, is no cuboid: its share
+/// the height of its class (`size_m`), at a mean probability under 0.7, is no cuboid: its share
 /// goes to class 0. Frame: lidar. Cost: 1 ms for 64×1024; allocates nothing after the first scans.
 class CuboidPieces {
  public:

@@ -26,7 +26,7 @@ struct Picture : testing::Picture {
 
 TEST(CuboidPieces, ThatAreLowAndUnsureAreNoVehicle) {
   Picture picture;
-  const auto fence = picture.draw(0.5F, 4, 0.8F, 0.7F);
+  const auto fence = picture.draw(0.5F, 4, 0.8F, 0.65F);
   picture.decide();
   for (const std::size_t i : fence) {
     EXPECT_EQ(picture.at(i)[kVehicle], 0);
@@ -51,7 +51,7 @@ TEST(CuboidPieces, AsHighAsAVehicleStayThoughUnsure) {
 TEST(CuboidPieces, AreJudgedOneByOne) {
   Picture picture;
   const auto car = picture.draw(0.5F, 4, 1.5F, 0.6F);
-  const auto fence = picture.draw(0.9F, 4, 0.8F, 0.7F);  // its end 2 m beside the car's
+  const auto fence = picture.draw(0.9F, 4, 0.8F, 0.65F);  // its end 2 m beside the car's
   picture.decide();
   EXPECT_GT(picture.vehicle(car), 0.5F);
   EXPECT_EQ(picture.vehicle(fence), 0);
@@ -59,13 +59,13 @@ TEST(CuboidPieces, AreJudgedOneByOne) {
 
 TEST(CuboidPieces, AreNotCutByTheSeamOfTheImage) {
   Picture picture;
-  const auto car = picture.draw(0, 4, 0.8F, 0.7F);
+  const auto car = picture.draw(0, 4, 0.8F, 0.6F);
   std::vector<std::size_t> left, right;
   for (const std::size_t i : car) (i % testing::kColumns < 512 ? left : right).push_back(i);
   ASSERT_GT(std::min(left.size(), right.size()), car.size() / 3);
-  picture.believe(left, kVehicle, 0.95F);  // 0.825 together
+  picture.believe(left, kVehicle, 0.95F);  // 0.775 together
   picture.decide();
-  EXPECT_FLOAT_EQ(picture.vehicle(right), 0.7F);
+  EXPECT_FLOAT_EQ(picture.vehicle(right), 0.6F);
 }
 
 TEST(CuboidPieces, OfAClassThatIsLowMayBeLow) {
