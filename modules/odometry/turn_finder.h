@@ -17,7 +17,7 @@ struct TurnFinderConfig {
   double noise_m = 0.02;
   double kernel_m = 0.06;
   double correlation = 4;
-  double least_gain = 200;
+  double least_gain = 500;
   double least_share = 0.1;
   int least_scans = 8;
   double least_contradiction = 0.3;
@@ -33,8 +33,9 @@ struct TurnFinderConfig {
     v.field("correlation", correlation, {1, 1000}, "",
             "points per independent residual: neighbours share their plane's error");
     v.field("least_gain", least_gain, {1, 1e6}, "",
-            "of the log-likelihood, twice, until a turn is believed: compensated scans reach some "
-            "tens by errors of planes and angles");
+            "of the log-likelihood, twice, until a turn is believed: its beginning is then known "
+            "to 15°; "
+            "compensated scans reach 300 by errors of planes and angles");
     v.field("least_share", least_share, {0, 1}, "",
             "of the sweep that is seen: poses and planes hide most of it, 0.2 to 0.3 remain");
     v.field("least_scans", least_scans, {1, 1000}, "", "that moved, until a turn is believed");
