@@ -113,13 +113,12 @@ OdometryEstimate Odometry::register_as_it_is(const lidar::Scan& scan,
   auto [prediction, found] = most_likely(scan);
   OdometryEstimate estimate = report(scan, prediction, found);
   const bool changed = seek_turn(scan, prediction, found);
-  if (changed) {
-    map_.clear();  // of skewed scans
-    found.sweep = turn() ? motion_.sweep(prediction, found.registration.T_odom_lidar,
-                                         turns_.period(), imu_.samples())
-                         : Sweep{};
-  }
+  if (changed) found.sweep = sweep_by_azimuth(prediction, found);
   remember(prediction, found);
+  if (changed) {  // the map is of scans that were skewed otherwise
+    map_.clear();
+    usual_share_ = 0;
+  }
   stamp_ = estimate.stamp;
   T_odom_stamp_ = estimate.T_odom_lidar;
   if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
@@ -140,6 +139,10 @@ bool Odometry::seek_turn(const lidar::Scan& scan, const Prediction& prediction, 
   deskew(scan, fit.sweep, map_sample_);
   finder.insert(scratch_, azimuths(scan, map_sample_), T_odom_lidar, twist);
   return turns_.decide();
+}
+
+Sweep Odometry::sweep_by_azimuth(const Prediction& prediction, const Fit& fit) const {
+  return motion_.sweep(prediction, fit.registration.T_odom_lidar, turns_.period(), imu_.samples());
 }
 
 std::vector<float> Odometry::azimuths(const lidar::Scan& scan,

@@ -167,6 +167,8 @@ class Odometry {
   /// Looks at a scan without times before it goes into the map. \return whether from now on points
   /// have times by their azimuth, or have them no longer
   bool seek_turn(const lidar::Scan& scan, const Prediction& prediction, const Fit& fit);
+  /// Of a scan that comes without times, by the turn; of one that stood still without one.
+  [[nodiscard]] Sweep sweep_by_azimuth(const Prediction& prediction, const Fit& fit) const;
   [[nodiscard]] std::vector<float> azimuths(const lidar::Scan& scan,
                                             std::span<const std::uint32_t> chosen) const;
   [[nodiscard]] std::pair<Prediction, Fit> most_likely(const lidar::Scan& scan);

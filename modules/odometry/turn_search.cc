@@ -32,8 +32,10 @@ bool TurnSearch::take() {
 bool TurnSearch::drop() {
   compensated_ = finder_->contradicts(*turn_);
   if (compensated_ || finder_->scans() >= config_.trial_scans) finder_.reset();
-  if (compensated_) turn_.reset();
-  return compensated_;
+  if (!compensated_) return false;
+  turn_.reset();
+  period_ = 0;
+  return true;
 }
 
 std::string TurnSearch::note() const {
