@@ -71,7 +71,7 @@ struct TurnFinderConfig {
 /// that explains most is sought over 2 × 72 of them. Earlier poses and robust weights hide a part
 /// of the skew, which shrinks c and not its sign: of scans that were compensated or taken at one
 /// instant c is at most 0.05, of those that were skewed 0.1 to 1.
-/// Cost: 3 ms a scan, 20 MB, until the answer is known.
+/// Cost: a hash look-up a point and 25 MB, until the answer is known.
 class TurnFinder {
  public:
   /// \param voxel_m, most_voxels  of the local map
