@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "saker/odometry/pose_search.h"
 #include "saker/odometry/registration.h"
 #include "saker/odometry/sweep.h"
+#include "saker/odometry/turn_search.h"
 #include "saker/odometry/voxel_filter.h"
 #include "saker/odometry/voxel_map.h"
 
@@ -38,6 +41,7 @@ struct OdometryConfig {
   PoseSearchConfig search;
   AdaptiveGateConfig gate;
   MotionConfig motion;
+  TurnFinderConfig turn;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -80,6 +84,7 @@ struct OdometryConfig {
     v.group("search", search, "where registration starts when the prediction is not sure enough");
     v.group("gate", gate, "how far a point may be from the map");
     v.group("motion", motion, "prediction");
+    v.group("turn", turn, "how a sensor turns whose scans have no times");
   }
 };
 
@@ -127,7 +132,9 @@ struct OdometryEstimate {
 /// to a voxel map of Gaussians with robust weights and the prediction as prior, deskew and register
 /// once more with the motion found, add the scan to the map. A prediction that is not sure enough
 /// for one start, or a step of the clock, gives several; the one that most points fit is taken
-/// (pose_search.h). Sources: gate and two thinnings, Vizzo
+/// (pose_search.h). Scans without times of points are taken at one instant until it is found that
+/// and how the sensor turned (turn_search.h); from then on points have times by their azimuth, the
+/// stamp is the middle of the sweep, and a new map begins. Sources: gate and two thinnings, Vizzo
 /// et al., "KISS-ICP" (RA-L 2023), sec. III; planes of voxels, Yuan et al., "VoxelMap" (RA-L 2022),
 /// sec. III; deskewing by the motion between two scans, Dellenbach et al., "CT-ICP" (ICRA 2022).
 /// Cost: its README. One thread; after the first scans only the estimate's points are allocated.
@@ -140,6 +147,12 @@ class Odometry {
   [[nodiscard]] OdometryEstimate register_scan(const lidar::Scan& scan,
                                                std::span<const lidar::ImuSample> imu);
 
+  /// How the sensor turns, where scans have no times of points and it was found.
+  [[nodiscard]] const std::optional<Turn>& turn() const { return turns_.turn(); }
+
+  /// What is known of scans without times of points, as a line; empty where they have times.
+  [[nodiscard]] std::string times_note() const { return turns_.note(); }
+
  private:
   struct Fit {
     RegistrationResult registration;
@@ -149,6 +162,15 @@ class Odometry {
     OdometryReason reason = OdometryReason::none;
   };
 
+  [[nodiscard]] OdometryEstimate register_as_it_is(const lidar::Scan& scan,
+                                                   std::span<const lidar::ImuSample> imu);
+  /// Looks at a scan without times before it goes into the map. \return whether from now on points
+  /// have times by their azimuth, or have them no longer
+  bool seek_turn(const lidar::Scan& scan, const Prediction& prediction, const Fit& fit);
+  /// Of a scan that comes without times, by the turn; of one that stood still without one.
+  [[nodiscard]] Sweep sweep_by_azimuth(const Prediction& prediction, const Fit& fit) const;
+  [[nodiscard]] std::vector<float> azimuths(const lidar::Scan& scan,
+                                            std::span<const std::uint32_t> chosen) const;
   [[nodiscard]] std::pair<Prediction, Fit> most_likely(const lidar::Scan& scan);
   [[nodiscard]] static bool more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
                                         const Prediction& of_b);
@@ -190,14 +212,16 @@ class Odometry {
   MotionModel motion_;
   VoxelFilter filter_;
   ImuBuffer imu_;
+  TurnSearch turns_;
 
   bool started_ = false;
   Time stamp_ = 0;
   SE3 T_odom_stamp_ = SE3::Identity();  // the last estimate
   Time pruned_stamp_ = 0;
-  int misfits_ = 0;         // scans in a row
-  double usual_share_ = 0;  // of points on planes; 0: not known yet
-  FirstScan first_;         // emptied when it was put in again
+  int misfits_ = 0;          // scans in a row
+  double usual_share_ = 0;   // of points on planes; 0: not known yet
+  FirstScan first_;          // emptied when it was put in again
+  bool by_azimuth_ = false;  // the scan at hand has times by `turn()`
   std::vector<std::uint32_t> map_sample_, registration_sample_, coarse_sample_;
   std::vector<Eigen::Vector3d> scratch_;
 };

@@ -10,6 +10,7 @@
 #include "saker/lidar/bags/message_file.h"
 #include "saker/lidar/recording_kind.h"
 #include "saker/objects/map_io.h"
+#include "saker/odometry/odometry.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 #include "tools/saker/recording_input.h"
@@ -99,10 +100,13 @@ void print_scans(lidar::ScanSource& source) {
   if (const std::string note = source.note(); !note.empty())
     std::cout << "note     " << note << "\n";
   Summary summary;
+  odometry::Odometry odometry({});
   while (summary.scans < kScansRead) {
     const auto frame = source.next();
     if (!frame) break;
     summary.add(*frame);
+    if (!summary.timed && frame->fault.empty())
+      (void)odometry.register_scan(frame->scan, frame->imu);
   }
   const int expected = source.expected_scans();
   std::cout << fmt::format(
@@ -122,6 +126,8 @@ void print_scans(lidar::ScanSource& source) {
         summary.least.x(), summary.most.x(), summary.least.y(), summary.most.y(), summary.least.z(),
         summary.most.z(), summary.farthest);
   }
+  if (const std::string note = odometry.times_note(); !summary.timed && !note.empty())
+    std::cout << "times    " << note << "\n";
   std::cout << fmt::format("inertial {} samples\n", summary.imu);
   if (const std::string amiss = source.counters().summary(); !amiss.empty()) {
     std::cout << "amiss    " << amiss << "\n";

@@ -238,6 +238,7 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
     throw Error(fmt::format("{}: no scan in it, expected at least one", options.input.path));
 
   say_fit(result.fit, config);
+  if (!result.times_note.empty()) spdlog::info("{}", result.times_note);
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
