@@ -186,7 +186,6 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   const std::string fit_note =
       network_fit_note(result.fit, std::filesystem::path(network).replace_extension(".yaml"));
   if (!fit_note.empty()) spdlog::warn("{}", fit_note);
-  if (!result.times_note.empty()) spdlog::info("{}", result.times_note);
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
@@ -206,6 +205,7 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
                      .tentative = result.tentative},
                     config.objects);
   report(results);
+  if (!result.times_note.empty()) spdlog::info("{}", result.times_note);
   for (const std::string& line : short_of) spdlog::warn("{}", line);
   return short_of.empty() ? 0 : 1;
 }
