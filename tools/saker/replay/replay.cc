@@ -238,7 +238,6 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
     throw Error(fmt::format("{}: no scan in it, expected at least one", options.input.path));
 
   say_fit(result.fit, config);
-  if (!result.times_note.empty()) spdlog::info("{}", result.times_note);
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
@@ -254,6 +253,7 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   draw(run);
   if (recording) finish_recording(*recording, run);
   report(results);
+  if (!result.times_note.empty()) spdlog::info("{}", result.times_note);
   for (const std::string& line : short_of) spdlog::warn("{}", line);
   leave_html_report(out.path(), "Replay of " + name_of(options.input.path), process);
   return short_of.empty() ? 0 : 1;
