@@ -6,7 +6,6 @@
 #include "saker/lidar/scan.h"
 #include "saker/objects/class_table.h"
 #include "saker/segmentation/back_projection.h"
-#include "saker/segmentation/cuboid_pieces.h"
 #include "saker/segmentation/cylinder_pieces.h"
 #include "saker/segmentation/features.h"
 #include "saker/segmentation/network.h"
@@ -32,7 +31,7 @@ struct SegmentationConfig {
 /// is said to be, so a tilted sensor at any height will do. Method: range image (range_image.h),
 /// geometry per pixel (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut
 /// down, as the paper's sec. IV-A does (network.h; trained by tools/training on simulated scans
-/// only), one decision for the pixels of an object (cylinder_pieces.h, cuboid_pieces.h), back
+/// only), one decision for the pixels of an object (cylinder_pieces.h), back
 /// to the points (back_projection.h). A scan without finite points is all `other` with probability
 /// 0. Cost: docs/real.md. One thread, one instance a thread; the same scan gives the same bytes.
 class Segmentation {
@@ -54,7 +53,6 @@ class Segmentation {
   RangeImage image_;
   Features features_;
   CylinderPieces cylinder_pieces_;
-  CuboidPieces cuboid_pieces_;
   BackProjection back_projection_;
 };
 

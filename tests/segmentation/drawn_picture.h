@@ -12,7 +12,7 @@
 
 namespace saker::segmentation::testing {
 
-inline constexpr int kRows = 40, kColumns = 1024, kVehicle = 1, kTrunk = 2, kPole = 3;
+inline constexpr int kRows = 40, kColumns = 1024, kTrunk = 2, kPole = 3;
 inline constexpr float kPitch = 2 * std::numbers::pi_v<float> / kColumns;
 
 /// An empty image of a turning sensor, in which upright surfaces that face it are drawn as its
@@ -54,11 +54,6 @@ struct Picture {
   }
 
   [[nodiscard]] float* at(std::size_t i) { return &pixels.values[i * table.size()]; }
-
-  /// Gives the pixels a class's probability and the rest of it to class 0.
-  void believe(const std::vector<std::size_t>& drawn, int id, float probability) {
-    for (const std::size_t i : drawn) at(i)[id] = probability, at(i)[0] = 1 - probability;
-  }
 };
 
 }  // namespace saker::segmentation::testing
