@@ -12,7 +12,7 @@ mission:
   site: {targets: 2}
   capture: {columns: 512, rows: 32}
 """
-NIGHTLY = ("demo", "small", "garage", "wrong_prior", "obstacles")  # with the smallest worlds
+CI = ("demo", "small", "garage", "wrong_prior", "obstacles")  # with the smallest worlds
 
 
 class Campaign(ProgramTest):
@@ -63,7 +63,7 @@ class Campaign(ProgramTest):
         self.assertEqual(self.fly("--runs", 1, saker=self.folder / "none").returncode, 2)
 
     def test_twenty_missions_break_nothing(self):
-        scenarios = [ROOT / "configs/scenarios" / f"{name}.yaml" for name in NIGHTLY]
+        scenarios = [ROOT / "configs/scenarios" / f"{name}.yaml" for name in CI]
         run = self.fly("--runs", 20, "--seconds", 20, scenarios=scenarios)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         self.assertEqual(len(self.lines()), 20)

@@ -67,10 +67,10 @@ class Faults(ProgramTest):
             self.assertEqual(run.returncode, 2, text)
             self.assertIn("no record of a flight", run.stderr)
 
-    def flown(self, *schedule, seconds=25):
-        """What comes of these faults, one after the other from 10 s on: (kind, place)."""
+    def flown(self, *schedule, seconds=32):
+        """What comes of these faults, one after the other from 16 s on, in the air: (kind, place)."""
         file = self.folder / "made.json"
-        faults = [{"kind": kind, "place": place, "at_s": 10 + i, "lasts_s": None, "strength": 1, "towards_deg": 0, "seed": 1}
+        faults = [{"kind": kind, "place": place, "at_s": 16 + i, "lasts_s": None, "strength": 1, "towards_deg": 0, "seed": 1}
                   for i, (kind, place) in enumerate(schedule)]
         file.write_text(json.dumps({"seed": 1, "most_s": seconds, "schedule": faults, "digest": ""}))
         return json.loads(saker("faults", self.scenario, "--replay", file).stdout)
