@@ -48,7 +48,7 @@ const char* to_string(Cause cause) {
                                     "battery_unknown",
                                     "takeoff_blocked",
                                     "place_unfit"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(Cause::place_unfit) + 1);
+  static_assert(std::size(kNames) == static_cast<std::size_t>(kLastCause) + 1);
   return kNames[static_cast<int>(cause)];
 }
 

@@ -54,6 +54,8 @@ enum class Cause {
   place_unfit,      ///< nothing to land on, by what was seen of the ground
 };
 
+inline constexpr Cause kLastCause = Cause::place_unfit;  ///< codes have no gap up to it
+
 /// One word, as MISSION shows it.
 [[nodiscard]] const char* to_string(Cause cause);
 
