@@ -269,9 +269,10 @@ void Mission::say_stop(const GuidanceStop& stop) {
   stops_ = stop.count;
 }
 
-/// With time to look where: at once where the place below is fit.
+/// With time to look where: at once where the place below is fit, and in the climb, which the
+/// flight controller would go on with while no setpoint is there to hold it.
 void Mission::come_down(const MissionInput& input, Cause cause, core::Text text) {
-  if (below_is_fit(input)) return land(cause, std::move(text));
+  if (phase_ == MissionPhase::takeoff || below_is_fit(input)) return land(cause, std::move(text));
   const LandingPlace& below = input.planning.landing;
   ground_ = below.ground;
   go(MissionPhase::landing, cause, text + "; looks for a place: " + below.text());

@@ -52,6 +52,15 @@ TEST_F(InFlight, OrderedToLandWhileItMovesItStopsFirstAndLooks) {
   EXPECT_EQ(sent(CommandKind::land), 1);
 }
 
+TEST_F(Orders, OrderedToLandInTheClimbItDoesNotClimbOn) {
+  ASSERT_TRUE(run_to(MissionPhase::takeoff));
+  speed = 1;
+  ground = Ground::unseen;
+  EXPECT_EQ(order(OrderKind::land).state, OrderState::accepted);
+  EXPECT_EQ(sent(CommandKind::land), 1);
+  EXPECT_EQ(mode, VehicleMode::land);
+}
+
 TEST_F(InFlight, AnAbortDoesNotLook) {
   ground = Ground::occupied;
   order(OrderKind::abort);
