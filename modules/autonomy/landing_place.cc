@@ -33,6 +33,9 @@ core::Text LandingPlace::text() const {
   return "nobody has looked at the ground";
 }
 
+/// Level ground that lies on the border of two layers is in both.
+double LandingPlaces::step_m() const { return std::max(config_.step_m, 1.5 * grid_.resolution_m); }
+
 /// The tops of the columns of cells within a circle, and where they are from its middle.
 template <class Visit>
 void LandingPlaces::for_each(const Eigen::Vector3d& above, double radius_m, Visit visit) const {
@@ -85,7 +88,7 @@ LandingPlaces::Plane LandingPlaces::plane(const Eigen::Vector3d& above) const {
     }
     const Eigen::Vector3d solved = A.ldlt().solve(b);
     plane = {solved.x(), solved.tail<2>()};
-    const double most = config_.step_m;
+    const double most = step_m();
     std::erase_if(points,
                   [&](const Eigen::Vector3d& p) { return p.z() - plane.at(p.head<2>()) > most; });
   }
@@ -94,16 +97,17 @@ LandingPlaces::Plane LandingPlaces::plane(const Eigen::Vector3d& above) const {
 
 LandingPlaces::Tally LandingPlaces::tally(const Eigen::Vector3d& above, const Plane& plane) const {
   Tally tally;
+  const double step = step_m();
   for_each(above, config_.clear_m, [&](const Eigen::Vector2d& from, const Column& column) {
     const double level = plane.at(from);
     const double over = column.ground_m - level;  // NaN: none
-    if (over > config_.step_m) tally.highest_m = std::max(tally.highest_m, over);
+    if (over > step) tally.highest_m = std::max(tally.highest_m, over);
     ++tally.columns;
-    if (column.unseen_m > level + config_.step_m) ++tally.unseen;
+    if (column.unseen_m > level + step) ++tally.unseen;
     if (from.norm() > config_.legs_m) return;
     ++tally.legs;
     const bool carried = std::isnan(over) && column.stood;
-    if (std::abs(over) <= config_.step_m || carried) ++tally.ground;
+    if (std::abs(over) <= step || carried) ++tally.ground;
   });
   return tally;
 }

@@ -28,8 +28,9 @@ struct LandingConfig {
     v.field("ground_m", ground_m, {0.5, 20}, "m", "the ground's plane is fitted so far around");
     v.field("stood_m", stood_m, {0, 10}, "m",
             "around the place of take-off: what was not seen there carried it");
-    v.field("step_m", step_m, {0.1, 5}, "m",
-            "over the plane: more stands on it; under it: more is a hole. A cell and a half");
+    v.field(
+        "step_m", step_m, {0.1, 5}, "m",
+        "over the plane: more stands on it; under it: more is a hole. A cell and a half at least");
     v.field("slope_deg", slope_deg, {1, 60}, "°", "steeper, and it may slide or tip");
     v.field("seen_share", seen_share, {0, 1}, "",
             "of the ground under the legs that returned a beam; grass and flat beams leave gaps, "
@@ -96,6 +97,7 @@ class LandingPlaces {
     double highest_m = 0;
   };
 
+  [[nodiscard]] double step_m() const;
   template <class Visit>
   void for_each(const Eigen::Vector3d& above, double radius_m, Visit visit) const;
   [[nodiscard]] Column column(const Eigen::Vector3d& top) const;

@@ -88,6 +88,15 @@ TEST_F(LandingPlacesTest, GapsBetweenBeamsInTheGroundAreNoWater) {
   EXPECT_TRUE(judge().fit());
 }
 
+TEST_F(LandingPlacesTest, LevelGroundOnTheBorderOfTwoLayersOfLargeCellsIsFit) {
+  grid.resolution_m = 0.5;
+  grid.size = {80, 80, 18};
+  grid.cells.assign(static_cast<std::size_t>(grid.size.prod()), Cell::free);
+  fill(grid, {-20, -20, -1}, {20, 20, -0.5}, Cell::occupied);
+  for (double x = -18; x < 20; x += 4) fill(grid, {x, -20, -1}, {x + 0.5, 20, 0}, Cell::occupied);
+  EXPECT_TRUE(judge().fit()) << judge().text();
+}
+
 TEST_F(LandingPlacesTest, AirThatWasNotSeenHidesSomebody) {
   fill(grid, kAbove - Eigen::Vector3d(1, 1, 2.5), kAbove + Eigen::Vector3d(1, 1, -1.6),
        Cell::unknown);
