@@ -65,10 +65,11 @@ void ContactSense::judge() {
   if (count_ < kLeast || steady_weight_ < 1) return;
   const Eigen::Vector3d force = mean_force() - of_turning();
   const double sideways = (force - steady_).head<2>().norm();
-  const double beyond =
-      std::max({sideways / config_.sideways_mps2, force.z() / config_.upwards_mps2,
-                -force.z() / config_.downwards_mps2});
-  if (beyond > 1) last_ = {at(count_ - 1).stamp, std::max(sideways, std::abs(force.z()))};
+  const double along =
+      force.z() > 0 ? force.z() / config_.upwards_mps2 : -force.z() / config_.downwards_mps2;
+  const double across = sideways / config_.sideways_mps2;
+  if (std::max(along, across) <= 1) return;
+  last_ = {at(count_ - 1).stamp, across > along ? sideways : std::abs(force.z())};
 }
 
 }  // namespace saker::autonomy

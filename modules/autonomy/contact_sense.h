@@ -19,7 +19,7 @@ struct ContactConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("window_s", window_s, {0.02, 1}, "s",
+    v.field("window_s", window_s, {0.05, 1}, "s",
             "the force is a mean over so long: 6 samples at 100 Hz; vibration has none");
     v.field("steady_s", steady_s, {0.1, 10}, "s",
             "what lasts longer is wind, a bias or a tilt of the mount");
