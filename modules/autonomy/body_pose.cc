@@ -8,6 +8,7 @@ namespace saker::autonomy {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kMemory_s = 2;           // of samples: no scan comes so late
 constexpr double kLongestAhead_s = 0.05;  // of the newest sample; then it is taken to stay
 constexpr double kMostAheadOfNow_s =
     0.25;                              // a clock may lag while it follows packets that got faster
@@ -36,7 +37,8 @@ BodyPose::BodyPose(const BodyPoseConfig& config, const odometry::InertialConfig&
 void BodyPose::add(const lidar::ImuSample& sample, Time now) {
   if (to_seconds(sample.stamp) - to_seconds(now) > kMostAheadOfNow_s) return;
   if (!sample.acceleration.allFinite() || !sample.angular_velocity.allFinite()) return;
-  imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - from_seconds(config_.coast_s)));
+  const double memory_s = std::max(config_.coast_s, kMemory_s);
+  imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - from_seconds(memory_s)));
   if (started_) newest_.propagate(sample);
 }
 
