@@ -71,7 +71,6 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.acks = std::move(input.acks);
   mission.looked_up = input.planning.column.state != TakeoffColumn::State::not_looked &&
                       input.now - input.planning.stamp <= from_seconds(kLooked_s);
-  mission.planning = std::move(input.planning);
   mission.stop = std::move(input.stop);
   mission.plant_heard = std::max(input.heard.vehicle, input.heard.lidar);
   mission.land_ordered = input.land_ordered;
@@ -86,6 +85,7 @@ Mission::Output Supervisor::step(SupervisorInput input) {
     safety_.find(seen, found_);
     mission.findings = found_;
   }
+  mission.planning = std::move(input.planning);  // its column was read
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {
     // While it holds, an answer is still due: a hold for planning that hangs ends in a landing.
