@@ -195,8 +195,8 @@ TEST_F(SafetyTest, AChargeThatIsSaidAgainIsFlownOnWith) {
 
 /// So far from home, with so much charge, at the drain that is believed before one is measured.
 SafetyDecision far_away(const SafetyConfig& config, double way_m, double share) {
-  Safety ladder(config,
-                motion::Geofence({.polygon_m = {-1e4, -1e4, 1e4, -1e4, 1e4, 1e4, -1e4, 1e4}}));
+  Safety ladder(config, motion::Geofence(motion::GeofenceConfig{
+                            .polygon_m = {-1e4, -1e4, 1e4, -1e4, 1e4, 1e4, -1e4, 1e4}}));
   SafetyInput input = good(100 * kNanosecondsPerSecond);
   input.place = {way_m, 0, 3};
   input.vehicle.battery_share = share;
