@@ -199,9 +199,10 @@ std::string value_text(const std::string& value) {
   if (is_plain(value)) return value;
   std::string quoted = "\"";
   for (const char c : value) {
-    const bool control = (c >= 0 && c < ' ') || c == 0x7F;
+    const auto byte = static_cast<unsigned char>(c);
+    const bool control = byte < ' ' || byte == 0x7F;
     if (c == '"' || c == '\\') quoted += '\\';
-    quoted += control ? fmt::format("\\x{:02x}", c) : std::string(1, c);
+    quoted += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
   }
   return quoted + '"';
 }

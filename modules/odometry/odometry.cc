@@ -91,14 +91,22 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   by_azimuth_ = turn() && Sweep::span_of(scan) == 0;
   if (!by_azimuth_) return register_as_it_is(scan, imu);
   OdometryEstimate estimate = register_as_it_is(timed(scan, *turn(), turns_.period()), imu);
-  const SE3& T_odom_middle = motion_.T_odom_lidar();
-  const Eigen::Isometry3f T_middle_end =
-      (T_odom_middle.inverse() * estimate.T_odom_lidar).cast<float>();
+  const SE3 T_odom_stamp = pose_at(scan.stamp, estimate);
+  const Eigen::Isometry3f T_stamp_end =
+      (T_odom_stamp.inverse() * estimate.T_odom_lidar).cast<float>();
   if (estimate.status != OdometryStatus::refused)
-    for (Eigen::Vector3f& point : estimate.points) point = T_middle_end * point;
+    for (Eigen::Vector3f& point : estimate.points) point = T_stamp_end * point;
   estimate.stamp = scan.stamp;
-  estimate.T_odom_lidar = T_odom_middle;
+  estimate.T_odom_lidar = T_odom_stamp;
   return estimate;
+}
+
+SE3 Odometry::pose_at(Time stamp, const OdometryEstimate& end) const {
+  const SE3& T_odom_middle = motion_.T_odom_lidar();
+  const double half_s = to_seconds(end.stamp - motion_.moment());
+  if (end.status == OdometryStatus::refused || half_s <= 0) return T_odom_middle;
+  const double ratio = to_seconds(stamp - motion_.moment()) / half_s;
+  return core::interpolate(T_odom_middle, end.T_odom_lidar, ratio);
 }
 
 OdometryEstimate Odometry::register_as_it_is(const lidar::Scan& scan,
@@ -318,6 +326,7 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   misfits_ += fit.reason == OdometryReason::no_fit;
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
+  turns_.clear_map();
   gate_.reset();
   usual_share_ = 0;
 }

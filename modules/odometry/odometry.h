@@ -164,6 +164,10 @@ class Odometry {
 
   [[nodiscard]] OdometryEstimate register_as_it_is(const lidar::Scan& scan,
                                                    std::span<const lidar::ImuSample> imu);
+  /// At the stamp of the scan with times by azimuth whose end was just registered: the registered
+  /// pose is the one in the middle of its points, which is not the stamp's unless they are all
+  /// around.
+  [[nodiscard]] SE3 pose_at(Time stamp, const OdometryEstimate& end) const;
   /// Looks at a scan without times before it goes into the map. \return whether from now on points
   /// have times by their azimuth, or have them no longer
   bool seek_turn(const lidar::Scan& scan, const Prediction& prediction, const Fit& fit);

@@ -12,6 +12,7 @@ constexpr int kMostPoints = 400;        // of a voxel: as many as the map takes
 constexpr double kGate_m = 0.3;         // points farther from their planes are of something else
 constexpr double kLeastMoved_m = 0.05;  // in a period, at 10 m: less says nothing
 constexpr double kUsualRange_m = 10;
+constexpr std::size_t kMostScans = 1000;  // counted: as many as a setting asks for
 
 TurnFinder::Terms terms_of(double azimuth) {
   TurnFinder::Terms terms;
@@ -90,7 +91,7 @@ void TurnFinder::compare(std::span<const Eigen::Vector3d> points, std::span<cons
   const Eigen::LDLT<Matrix6d> solver(of_pose);
   information_ += (of_terms - shared.transpose() * solver.solve(shared)) / inflation;
   weighted_ += (pull_terms - shared.transpose() * solver.solve(pull_pose)) / inflation;
-  periods_s_.push_back(period_s);
+  if (periods_s_.size() < kMostScans) periods_s_.push_back(period_s);
 }
 
 void TurnFinder::insert(std::span<const Eigen::Vector3d> points, std::span<const float> azimuths,
@@ -106,6 +107,11 @@ void TurnFinder::insert(std::span<const Eigen::Vector3d> points, std::span<const
     voxel.sum += (moved * terms_of(azimuths[i]).transpose()).cast<float>();
     ++voxel.count;
   }
+}
+
+void TurnFinder::clear_map() {
+  index_.clear();
+  voxels_.clear();
 }
 
 double TurnFinder::period_of(double seconds) const {

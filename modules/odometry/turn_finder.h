@@ -86,6 +86,9 @@ class TurnFinder {
   void insert(std::span<const Eigen::Vector3d> points, std::span<const float> azimuths,
               const SE3& T_odom_lidar, const Vector6d& twist);
 
+  /// The map of the scans that were inserted is gone.
+  void clear_map();
+
   /// Time of a sweep where scans are so far apart, s.
   [[nodiscard]] double period_of(double seconds) const;
 
@@ -106,7 +109,7 @@ class TurnFinder {
   /// Scans with times by this turn are skewed the other way: they had been compensated.
   [[nodiscard]] bool contradicts(const Turn& turn) const;
 
-  /// That moved and were compared.
+  /// That moved and were compared; at most 1000 are counted.
   [[nodiscard]] int scans() const { return static_cast<int>(periods_s_.size()); }
 
   /// No turn is seen where one would be.

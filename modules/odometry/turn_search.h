@@ -26,6 +26,11 @@ class TurnSearch {
   /// After each scan that it took. \return whether `turn` is another one from now on
   bool decide();
 
+  /// The local map was cleared: what it is of is not known any more, what was found is.
+  void clear_map() {
+    if (finder_) finder_->clear_map();
+  }
+
   [[nodiscard]] const std::optional<Turn>& turn() const { return turn_; }
   [[nodiscard]] Time period() const { return period_; }  ///< of a sweep; 0 without a turn
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace saker::segmentation {
@@ -109,11 +110,12 @@ float CylinderPieces::log_odds(const Piece& piece, const Extents& extents,
 }
 
 void CylinderPieces::share(const Piece& piece, float log_odds, PixelProbabilities& pixels) const {
+  constexpr float kSmallest = std::numeric_limits<float>::min();  // less has no finite inverse
   const float crowned_share = 1 / (1 + std::exp(-log_odds));
   for (const std::int32_t i : piece) {
     float* pixel = &pixels.values[static_cast<std::size_t>(i) * pixels.classes];
     const float crowned = sum_of(crowned_.classes, pixel), bare = sum_of(bare_.classes, pixel);
-    if (!(crowned > 0) || !(bare > 0)) continue;
+    if (!(crowned >= kSmallest) || !(bare >= kSmallest)) continue;
     for (const int k : crowned_.classes) pixel[k] *= crowned_share * (crowned + bare) / crowned;
     for (const int k : bare_.classes) pixel[k] *= (1 - crowned_share) * (crowned + bare) / bare;
   }

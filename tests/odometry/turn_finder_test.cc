@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "made_world.h"
+#include "saker/core/rng.h"
 #include "saker/odometry/odometry.h"
 
 namespace saker::odometry {
@@ -109,6 +110,52 @@ TEST(TurnFinder, ScansWithTimesAreLeftAlone) {
         testing::scan(testing::street(), {}, testing::straight(8), k * kPeriod), {});
   EXPECT_FALSE(odometry.turn());
   EXPECT_EQ(odometry.times_note(), "");
+}
+
+/// What is more than 60° off the sensor's front is not seen.
+lidar::Scan front_of(lidar::Scan scan) {
+  for (Eigen::Vector3f& point : scan.points)
+    if (!(std::abs(azimuth_of(point)) < 1.05F)) point.setConstant(NAN);
+  return scan;
+}
+
+TEST(TurnFinder, WhereOnlyTheFrontIsSeenPosesStayThoseAtTheStamp) {
+  const MadeSensor sensor = turning(true, M_PI);
+  const Motion motion = testing::straight(8);
+  Odometry odometry{OdometryConfig{}};
+  Eigen::Vector3d off_all_around = Eigen::Vector3d::Zero();
+  for (int k = 1; k <= 50; ++k) {
+    const lidar::Scan whole = without_times(sensor, motion, k * kPeriod);
+    const auto estimate = odometry.register_scan(k > 40 ? front_of(whole) : whole, {});
+    const SE3 T_first_now = motion(kPeriod).inverse() * motion(k * kPeriod);
+    const Eigen::Vector3d off = estimate.T_odom_lidar.translation() - T_first_now.translation();
+    if (k <= 40) {
+      off_all_around = off;
+    } else {
+      EXPECT_LT((off - off_all_around).norm(), 0.08) << k;  // a sixth of a sweep is 0.13
+    }
+  }
+  EXPECT_TRUE(odometry.turn());
+}
+
+TEST(TurnFinder, ForgetsTheMapThatWasCleared) {
+  core::Rng rng(3);
+  std::vector<Eigen::Vector3d> points;
+  std::vector<float> azimuths;
+  for (int i = 0; i < 40; ++i) {
+    points.emplace_back(rng.uniform(0.05, 0.55), rng.uniform(0.05, 0.55), rng.normal(0.3, 0.01));
+    azimuths.push_back(static_cast<float>(rng.uniform(-M_PI, M_PI)));
+  }
+  VoxelMap map{VoxelMapConfig{}};
+  map.insert(points, 0);
+  const Vector6d rising = 0.8 * Vector6d::Unit(5);
+  for (const bool cleared : {false, true}) {
+    TurnFinder finder({}, 0.6, 1000);
+    finder.insert(points, azimuths, SE3::Identity(), rising);
+    if (cleared) finder.clear_map();
+    finder.compare(points, azimuths, SE3::Identity(), rising, 0.1, map);
+    EXPECT_EQ(finder.best().gain > 0, !cleared);
+  }
 }
 
 TEST(TurnFinder, ScansThatWereLeftOutDoNotMakeASweepLonger) {
