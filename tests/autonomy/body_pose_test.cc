@@ -328,8 +328,8 @@ Dishonesty after_step_of_bias(const Eigen::Vector3d& step) {
 }
 
 // `saker faults` found it: a step of 0.5 m/s² left the pose 5 sd off while its status was ok.
-// Hazard: Odometry | the bias of the inertial unit steps by up to 1 m/s² | the pose between scans is
-//   doubted, its covariance says so, the bias is learnt anew | –
+// Hazard: Odometry | the bias of the inertial unit steps by up to 1 m/s² | the pose between scans
+//   is doubted, its covariance says so, the bias is learnt anew | –
 TEST(BodyPose, StaysHonestWhenTheBiasesStep) {
   for (const Eigen::Vector3d& step : {Eigen::Vector3d(0.5, 0, 0), Eigen::Vector3d(0, -0.3, 0.4),
                                       Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(-0.6, 0.7, 0.4)}) {
