@@ -27,7 +27,7 @@ struct BodyPoseConfig {
   double lost_s = 1.0;
   double coast_sd_m = 0.5;
   double coast_s = 6.0;
-  double jump_m = 1.0;
+  double jump_m = 0.5;
   double jump_deg = 20;
   double sd_position_m = 0.03;
   double sd_rotation_deg = 0.3;
@@ -42,7 +42,8 @@ struct BodyPoseConfig {
             "stated sd of the place up to which it does: what a vehicle at rest has about it");
     v.field("coast_s", coast_s, {0.2, 60}, "s", "age beyond which it is lost in any case");
     v.field("jump_m", jump_m, {0.05, 20}, "m",
-            "off the prediction: odometry began anew; taken over, reset counted");
+            "off the prediction: odometry began anew; taken over, reset counted. What an autopilot "
+            "takes for a lie without a reset");
     v.field("jump_deg", jump_deg, {1, 180}, "°", "the same for attitude");
     v.field("sd_position_m", sd_position_m, {1e-3, 5}, "m",
             "of a registered scan, each axis, beside its own covariance");
