@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "flight_viewers/scratch_folder.h"
+#include "saker/autonomy/config.h"
 #include "saker/core/error.h"
 #include "saker/core/files.h"
 #include "saker/lidar/bags/mcap_file.h"
