@@ -51,7 +51,6 @@ LockstepResult Lockstep::run(lidar::ScanSource& source, LockstepObserver& observ
   noise_.add_common(result.map);
   result.tentative = slam_.tentative();
   result.fit = fit();
-  result.times_note = odometry_.times_note();
   result.keyframes = static_cast<int>(slam_.keyframes().size());
   return result;
 }

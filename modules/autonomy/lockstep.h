@@ -61,7 +61,6 @@ struct LockstepResult {
   objects::ObjectMap map;
   std::vector<objects::MapObject> tentative;  ///< slam.h: seen too seldom to be in the map
   SegmentationFit fit;
-  std::string times_note;  ///< of scans without times of points: Odometry::times_note
   int labelled_scans = 0;
   int slam_cycles = 0;
   int keyframes = 0;

@@ -82,7 +82,6 @@ class MotionModel {
 
   [[nodiscard]] Time moment() const { return moment_; }
   [[nodiscard]] const SE3& T_odom_lidar() const { return T_odom_lidar_; }
-  [[nodiscard]] const SE3& T_odom_registered() const { return T_odom_registered_; }
   [[nodiscard]] double usual_interval_s() const { return usual_interval_s_; }
   [[nodiscard]] const InertialFilter& inertial() const { return inertial_; }
 

@@ -83,34 +83,10 @@ Odometry::Odometry(const OdometryConfig& config)
       search_(config_.search),
       gate_(config_.gate),
       motion_(config_.motion),
-      filter_(kMostSampledPoints),
-      turns_(config_.turn, config_.map.voxel_m, config_.map.max_voxels) {}
+      filter_(kMostSampledPoints) {}
 
 OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
                                          std::span<const lidar::ImuSample> imu) {
-  by_azimuth_ = turn() && Sweep::span_of(scan) == 0;
-  if (!by_azimuth_) return register_as_it_is(scan, imu);
-  OdometryEstimate estimate = register_as_it_is(timed(scan, *turn(), turns_.period()), imu);
-  const SE3 T_odom_stamp = pose_at(scan.stamp, estimate);
-  const Eigen::Isometry3f T_stamp_end =
-      (T_odom_stamp.inverse() * estimate.T_odom_lidar).cast<float>();
-  if (estimate.status != OdometryStatus::refused)
-    for (Eigen::Vector3f& point : estimate.points) point = T_stamp_end * point;
-  estimate.stamp = scan.stamp;
-  estimate.T_odom_lidar = T_odom_stamp;
-  return estimate;
-}
-
-SE3 Odometry::pose_at(Time stamp, const OdometryEstimate& end) const {
-  const SE3& T_odom_middle = motion_.T_odom_lidar();
-  const double half_s = to_seconds(end.stamp - motion_.moment());
-  if (end.status == OdometryStatus::refused || half_s <= 0) return T_odom_middle;
-  const double ratio = to_seconds(stamp - motion_.moment()) / half_s;
-  return core::interpolate(T_odom_middle, end.T_odom_lidar, ratio);
-}
-
-OdometryEstimate Odometry::register_as_it_is(const lidar::Scan& scan,
-                                             std::span<const lidar::ImuSample> imu) {
   if (started_ && (scan.stamp <= stamp_ || moment_of(scan) <= motion_.moment()))
     return refused(scan);
   imu_.add(imu, motion_.moment() - kImuMemory);
@@ -120,47 +96,12 @@ OdometryEstimate Odometry::register_as_it_is(const lidar::Scan& scan,
 
   auto [prediction, found] = most_likely(scan);
   OdometryEstimate estimate = report(scan, prediction, found);
-  const bool changed = seek_turn(scan, prediction, found);
-  if (changed) found.sweep = sweep_by_azimuth(prediction, found);
   remember(prediction, found);
-  if (changed) {  // the map is of scans that were skewed otherwise
-    map_.clear();
-    usual_share_ = 0;
-  }
   stamp_ = estimate.stamp;
   T_odom_stamp_ = estimate.T_odom_lidar;
   if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
-    add_to_map(changed && turn() ? timed(scan, *turn(), turns_.period()) : scan, found.sweep);
+    add_to_map(scan, found.sweep);
   return estimate;
-}
-
-bool Odometry::seek_turn(const lidar::Scan& scan, const Prediction& prediction, const Fit& fit) {
-  const bool without_times = by_azimuth_ || Sweep::span_of(scan) == 0;
-  if (!turns_.open() || !without_times || fit.reason != OdometryReason::none) return false;
-  TurnFinder& finder = turns_.finder();
-  const SE3& T_odom_lidar = fit.registration.T_odom_lidar;
-  const double period = finder.period_of(prediction.seconds);
-  const Vector6d twist = core::se3_log(motion_.T_odom_registered().inverse() * T_odom_lidar) *
-                         (period / prediction.seconds);
-  deskew(scan, fit.sweep, registration_sample_);
-  finder.compare(scratch_, azimuths(scan, registration_sample_), T_odom_lidar, twist, period, map_);
-  deskew(scan, fit.sweep, map_sample_);
-  finder.insert(scratch_, azimuths(scan, map_sample_), T_odom_lidar, twist);
-  return turns_.decide();
-}
-
-Sweep Odometry::sweep_by_azimuth(const Prediction& prediction, const Fit& fit) const {
-  return motion_.sweep(prediction, fit.registration.T_odom_lidar, turns_.period(), imu_.samples());
-}
-
-std::vector<float> Odometry::azimuths(const lidar::Scan& scan,
-                                      std::span<const std::uint32_t> chosen) const {
-  const Eigen::Isometry3f T_sensor_lidar = scan.T_lidar_sensor.inverse();
-  std::vector<float> result;
-  result.reserve(chosen.size());
-  for (const std::uint32_t i : chosen)
-    result.push_back(azimuth_of(T_sensor_lidar * scan.points[i]));
-  return result;
 }
 
 /// The prediction, unless another one explains the scan where it does not.
@@ -326,7 +267,6 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   misfits_ += fit.reason == OdometryReason::no_fit;
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
-  turns_.clear_map();
   gate_.reset();
   usual_share_ = 0;
 }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,7 +13,6 @@
 #include "saker/odometry/pose_search.h"
 #include "saker/odometry/registration.h"
 #include "saker/odometry/sweep.h"
-#include "saker/odometry/turn_search.h"
 #include "saker/odometry/voxel_filter.h"
 #include "saker/odometry/voxel_map.h"
 
@@ -41,7 +38,6 @@ struct OdometryConfig {
   PoseSearchConfig search;
   AdaptiveGateConfig gate;
   MotionConfig motion;
-  TurnFinderConfig turn;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -84,7 +80,6 @@ struct OdometryConfig {
     v.group("search", search, "where registration starts when the prediction is not sure enough");
     v.group("gate", gate, "how far a point may be from the map");
     v.group("motion", motion, "prediction");
-    v.group("turn", turn, "how a sensor turns whose scans have no times");
   }
 };
 
@@ -132,9 +127,7 @@ struct OdometryEstimate {
 /// to a voxel map of Gaussians with robust weights and the prediction as prior, deskew and register
 /// once more with the motion found, add the scan to the map. A prediction that is not sure enough
 /// for one start, or a step of the clock, gives several; the one that most points fit is taken
-/// (pose_search.h). Scans without times of points are taken at one instant until it is found that
-/// and how the sensor turned (turn_search.h); from then on points have times by their azimuth, the
-/// stamp is the middle of the sweep, and a new map begins. Sources: gate and two thinnings, Vizzo
+/// (pose_search.h). Sources: gate and two thinnings, Vizzo
 /// et al., "KISS-ICP" (RA-L 2023), sec. III; planes of voxels, Yuan et al., "VoxelMap" (RA-L 2022),
 /// sec. III; deskewing by the motion between two scans, Dellenbach et al., "CT-ICP" (ICRA 2022).
 /// Cost: its README. One thread; after the first scans only the estimate's points are allocated.
@@ -147,12 +140,6 @@ class Odometry {
   [[nodiscard]] OdometryEstimate register_scan(const lidar::Scan& scan,
                                                std::span<const lidar::ImuSample> imu);
 
-  /// How the sensor turns, where scans have no times of points and it was found.
-  [[nodiscard]] const std::optional<Turn>& turn() const { return turns_.turn(); }
-
-  /// What is known of scans without times of points, as a line; empty where they have times.
-  [[nodiscard]] std::string times_note() const { return turns_.note(); }
-
  private:
   struct Fit {
     RegistrationResult registration;
@@ -162,19 +149,6 @@ class Odometry {
     OdometryReason reason = OdometryReason::none;
   };
 
-  [[nodiscard]] OdometryEstimate register_as_it_is(const lidar::Scan& scan,
-                                                   std::span<const lidar::ImuSample> imu);
-  /// At the stamp of the scan with times by azimuth whose end was just registered: the registered
-  /// pose is the one in the middle of its points, which is not the stamp's unless they are all
-  /// around.
-  [[nodiscard]] SE3 pose_at(Time stamp, const OdometryEstimate& end) const;
-  /// Looks at a scan without times before it goes into the map. \return whether from now on points
-  /// have times by their azimuth, or have them no longer
-  bool seek_turn(const lidar::Scan& scan, const Prediction& prediction, const Fit& fit);
-  /// Of a scan that comes without times, by the turn; of one that stood still without one.
-  [[nodiscard]] Sweep sweep_by_azimuth(const Prediction& prediction, const Fit& fit) const;
-  [[nodiscard]] std::vector<float> azimuths(const lidar::Scan& scan,
-                                            std::span<const std::uint32_t> chosen) const;
   [[nodiscard]] std::pair<Prediction, Fit> most_likely(const lidar::Scan& scan);
   [[nodiscard]] static bool more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
                                         const Prediction& of_b);
@@ -216,16 +190,14 @@ class Odometry {
   MotionModel motion_;
   VoxelFilter filter_;
   ImuBuffer imu_;
-  TurnSearch turns_;
 
   bool started_ = false;
   Time stamp_ = 0;
   SE3 T_odom_stamp_ = SE3::Identity();  // the last estimate
   Time pruned_stamp_ = 0;
-  int misfits_ = 0;          // scans in a row
-  double usual_share_ = 0;   // of points on planes; 0: not known yet
-  FirstScan first_;          // emptied when it was put in again
-  bool by_azimuth_ = false;  // the scan at hand has times by `turn()`
+  int misfits_ = 0;         // scans in a row
+  double usual_share_ = 0;  // of points on planes; 0: not known yet
+  FirstScan first_;         // emptied when it was put in again
   std::vector<std::uint32_t> map_sample_, registration_sample_, coarse_sample_;
   std::vector<Eigen::Vector3d> scratch_;
 };

@@ -94,8 +94,7 @@ lidar::Scan scan(const MadeWorld& world, const MadeSensor& sensor, const Motion&
   for (int c = 0; c < sensor.columns; ++c) {
     const Time offset = -(sensor.columns - 1 - c) * sensor.period / sensor.columns;
     const SE3 T = motion(stamp + offset);
-    const double azimuth =
-        sensor.begin_rad + (sensor.clockwise ? -2 : 2) * M_PI * c / sensor.columns;
+    const double azimuth = -2 * M_PI * c / sensor.columns;
     for (int r = 0; r < sensor.rows; ++r) {
       const double elevation =
           kDegree * (sensor.up_deg + (sensor.down_deg - sensor.up_deg) * r / (sensor.rows - 1));

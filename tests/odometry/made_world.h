@@ -40,8 +40,6 @@ struct MadeSensor {
   Time period = 100'000'000;
   double range_noise_m = 0;
   double max_range_m = 100;
-  bool clockwise = true;  ///< seen from above
-  double begin_rad = 0;   ///< azimuth of the first column
 };
 
 /// What the sensor sees while it moves, columns in the order of time, the last one at `stamp`.

@@ -10,7 +10,6 @@
 #include "saker/lidar/bags/message_file.h"
 #include "saker/lidar/recording_kind.h"
 #include "saker/objects/map_io.h"
-#include "saker/odometry/odometry.h"
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 #include "tools/saker/recording_input.h"
@@ -100,14 +99,10 @@ void print_scans(lidar::ScanSource& source) {
   if (const std::string note = source.note(); !note.empty())
     std::cout << "note     " << note << "\n";
   Summary summary;
-  std::unique_ptr<odometry::Odometry> turning;  // of scans without times only
   while (summary.scans < kScansRead) {
     const auto frame = source.next();
     if (!frame) break;
     summary.add(*frame);
-    if (summary.timed || !frame->fault.empty()) continue;
-    if (!turning) turning = std::make_unique<odometry::Odometry>(odometry::OdometryConfig{});
-    (void)turning->register_scan(frame->scan, frame->imu);
   }
   const int expected = source.expected_scans();
   std::cout << fmt::format(
@@ -127,8 +122,6 @@ void print_scans(lidar::ScanSource& source) {
         summary.least.x(), summary.most.x(), summary.least.y(), summary.most.y(), summary.least.z(),
         summary.most.z(), summary.farthest);
   }
-  const std::string times_note = turning && !summary.timed ? turning->times_note() : "";
-  if (!times_note.empty()) std::cout << "times    " << times_note << "\n";
   std::cout << fmt::format("inertial {} samples\n", summary.imu);
   if (const std::string amiss = source.counters().summary(); !amiss.empty()) {
     std::cout << "amiss    " << amiss << "\n";

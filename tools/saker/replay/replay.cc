@@ -253,7 +253,6 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
   draw(run);
   if (recording) finish_recording(*recording, run);
   report(results);
-  if (!result.times_note.empty()) spdlog::info("{}", result.times_note);
   for (const std::string& line : short_of) spdlog::warn("{}", line);
   leave_html_report(out.path(), "Replay of " + name_of(options.input.path), process);
   return short_of.empty() ? 0 : 1;
