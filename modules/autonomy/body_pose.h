@@ -25,7 +25,7 @@ namespace saker::autonomy {
 struct BodyPoseConfig {
   double fresh_s = 0.4;
   double lost_s = 1.0;
-  double coast_sd_m = 0.5;
+  double coast_sd_m = 0.6;
   double coast_s = 6.0;
   double jump_m = 0.5;
   double jump_deg = 20;

@@ -34,7 +34,7 @@ class SupervisorTest : public testing::Test {
     input.vehicle.battery_share = 0.9;
     input.odometry.status = VehicleOdometryStatus::ok;
     input.odometry.T_odom_body.translation() =
-        Eigen::Vector3d(off == Cause::outside_geofence ? 1e4 : 0.0, 0, height);
+        Eigen::Vector3d(off == Cause::outside_geofence ? 120 : 0.0, 0, height);
     input.setpoint.emplace();
     input.setpoint->position = Eigen::Vector3d(off == Cause::off_course ? 5.0 : 0.0, 0, height);
     input.acks = std::exchange(acks, {});
