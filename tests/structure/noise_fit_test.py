@@ -95,15 +95,18 @@ class Runs(unittest.TestCase):
 
     def test_few_errors_fit_nothing(self):
         self.leave({"seed-1": poles(random.Random(1), 5)})
-        run = self.fit()
+        run = self.fit("-o", str(self.folder / "noise.yaml"))
         self.assertEqual(run.returncode, 1)
+        self.assertFalse((self.folder / "noise.yaml").exists())
         self.assertIn("radius: 5 errors, expected 20", run.stderr)
 
     def test_runs_of_different_noise_and_none_are_refused_in_a_line(self):
-        self.assertIn("no map.json", self.fit().stderr)
+        run = self.fit()
+        self.assertIn("no map.json", run.stderr)
+        self.assertEqual(run.returncode, 2)
         self.leave({"seed-1": poles(random.Random(1), 5)}, "slam:\n  graph: 3\n")
         run = self.fit()
-        self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
         self.assertIn("without slam.noise", run.stderr)
 
 
