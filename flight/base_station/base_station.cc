@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "flight/bus/counter.h"
 #include "flight/bus/exchange_messages.h"
 #include "flight/bus/messages.h"
 
@@ -20,13 +21,6 @@ constexpr milliseconds kHealthPeriod{1000};
 
 Time nanoseconds(BaseStation::Steady::time_point time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
-}
-
-counter_t counter(const std::string& name, long value) {
-  counter_t message{};
-  message.name = name;
-  message.value = value;
-  return message;
 }
 
 }  // namespace

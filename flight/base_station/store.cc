@@ -3,9 +3,11 @@
 #include <sodium.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "saker/core/error.h"
 
@@ -88,19 +90,29 @@ void set_ceiling(Database& database, int most_mb) {
   (void)database.number("PRAGMA max_page_count=" + std::to_string(pages));
 }
 
+/// The stream that a row of `kAllChunks` names; nothing where no stream has that name.
+std::optional<StreamId> stream_of(const Statement& row) {
+  const std::int64_t kind = row.integer(1), version = row.integer(2);
+  StreamId id{row.text(0), StreamKind::history, static_cast<std::uint32_t>(version)};
+  if (!exchange::is_name(id.robot) || id.version != version) return std::nullopt;
+  if (kind < 0 || kind >= exchange::kStreamKinds) return std::nullopt;
+  id.kind = static_cast<StreamKind>(kind);
+  return id;
+}
+
 /// Calls `found(id, chunk, bytes)` for every chunk that is as it was written; how many are not.
 template <class Found>
 long for_each_chunk(Database& database, const Found& found) {
   long damaged = 0;
   Statement all(database.get(), kAllChunks);
   while (all.next()) {
-    const StreamId id{all.text(0), static_cast<StreamKind>(all.integer(1)),
-                      static_cast<std::uint32_t>(all.integer(2))};
+    const auto id = stream_of(all);
     const auto chunk = static_cast<int>(all.integer(3));
     const std::vector<std::uint8_t> digest = all.bytes(4), bytes = all.bytes(5);
-    const Digest expected = digest_of(id, chunk, bytes);
-    if (std::equal(digest.begin(), digest.end(), expected.begin(), expected.end())) {
-      found(id, chunk, bytes.size());
+    const bool whole = id && !bytes.empty() && bytes.size() <= exchange::kChunkBytes &&
+                       std::ranges::equal(digest, digest_of(*id, chunk, bytes));
+    if (whole) {
+      found(*id, chunk, bytes.size());
     } else {
       ++damaged;
     }
@@ -214,7 +226,10 @@ StoreReport read_report(const std::string& file) {
         {id, extent.contiguous, static_cast<int>(extent.beyond.size())});
   }
   Statement contacts(database.get(), "SELECT robot, utime FROM contacts");
-  while (contacts.next()) robots[contacts.text(0)].heard_utime = contacts.integer(1);
+  while (contacts.next()) {
+    const std::string robot = contacts.text(0);
+    if (exchange::is_name(robot)) robots[robot].heard_utime = contacts.integer(1);
+  }
   StoreReport report;
   for (auto& [name, robot] : robots) {
     robot.name = name;

@@ -10,6 +10,19 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerMicrosecond = 1000;
 
+// What the comments in lcmtypes allow.
+constexpr std::int64_t kMostUtime = 9'000'000'000'000'000;  // us
+constexpr double kLeastStep_s = 1e-3, kMostStep_s = 10;
+constexpr float kMostHeight_m = 1e3F;
+
+bool is_height(float metres) { return metres > 0 && metres <= kMostHeight_m; }
+
+/// Whether its end is a time.
+bool is_timed(const trajectory_t& message) {
+  return message.step_s >= kLeastStep_s && message.step_s <= kMostStep_s &&
+         message.start_utime >= 0 && message.start_utime <= kMostUtime;
+}
+
 motion_state_t to_lcm(const motion::MotionState& state) {
   motion_state_t message{};
   write_field(state.position, message.position);
@@ -84,7 +97,7 @@ command_t to_lcm(const Command& command) {
 
 std::optional<Command> from_lcm(const command_t& message) {
   const auto kind = enumerator_of(message.kind, CommandKind::resume);
-  if (!kind || (*kind == CommandKind::takeoff && !(message.height_m > 0))) return std::nullopt;
+  if (!kind || (*kind == CommandKind::takeoff && !is_height(message.height_m))) return std::nullopt;
   return Command{.stamp = from_utime(message.utime),
                  .id = message.id,
                  .kind = *kind,
@@ -176,7 +189,7 @@ std::optional<trajectory_t> to_lcm(const motion::Trajectory& trajectory, Time no
 
 std::optional<motion::Trajectory> from_lcm(const trajectory_t& message) {
   const bool sized = message.states.size() <= trajectory_t::MAX_STATES &&
-                     (message.states.empty() || message.step_s > 0);
+                     (message.states.empty() || is_timed(message));
   if (!sized) return std::nullopt;
   motion::Trajectory trajectory{.id = message.id,
                                 .start = from_utime(message.start_utime),

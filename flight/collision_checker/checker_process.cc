@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "flight/bus/counter.h"
 #include "flight/bus/messages.h"
 #include "flight/bus/occupancy_messages.h"
 
@@ -16,13 +17,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kVerdictPeriod{100};
 constexpr milliseconds kOccupancyPeriod{500};
 constexpr milliseconds kHealthPeriod{1000};
-
-counter_t counter(const char* name, long value) {
-  counter_t message{};
-  message.name = name;
-  message.value = value;
-  return message;
-}
 
 }  // namespace
 

@@ -61,6 +61,7 @@ struct Blackboard {
   Mailbox<autonomy::MapSnapshot> map;
   ValueBox<MapNews> map_news;
   ValueBox<VehicleOdometry> odometry;
+  ValueBox<autonomy::Contact> contact;
 
   // Planning, guidance, safety.
   Mailbox<autonomy::Planning::Output> plan;

@@ -54,6 +54,7 @@ Executive::Executive(const ProcessConfig& config, const ExecutiveInput& input, B
                uncertainty_),
       body_pose_(config.autonomy.body_pose, config.autonomy.odometry.motion.inertial,
                  lidar::mount_pose(config.autonomy.mount)),
+      contact_(config.autonomy.contact, lidar::mount_pose(config.autonomy.mount)),
       planning_(config.autonomy.planning, autonomy::active_as_flown(config.autonomy, input.sensor),
                 config.autonomy.motion, config.autonomy.objects, input.prior,
                 config.autonomy.mission.height_m, uncertainty_),

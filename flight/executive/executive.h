@@ -134,6 +134,7 @@ class Executive {
   MapSender map_sender_;
   int map_cycles_ = 0;
   autonomy::BodyPose body_pose_;
+  autonomy::ContactSense contact_;
   autonomy::Planning planning_;
   std::vector<std::pair<Time, active::Viewpoint>> viewpoints_;  // flown to, in their order
   std::shared_ptr<const autonomy::Planning::Output> newest_plan_, plan_before_;

@@ -16,7 +16,11 @@ constexpr std::size_t kMostViewpoints = 10000;  // of a flight: some tens
 
 LoopStatus Executive::pose() {
   const Time now = board_.clock.now();
-  for (const lidar::ImuSample& sample : board_.imu.take_all()) body_pose_.add(sample, now);
+  for (const lidar::ImuSample& sample : board_.imu.take_all()) {
+    body_pose_.add(sample, now);
+    contact_.add(sample);
+  }
+  board_.contact.put(contact_.last());
   for (const PoseFix& fix : board_.pose_fixes.take_all()) {
     body_pose_.correct(fix.stamp, fix.T_odom_lidar, fix.covariance);
   }

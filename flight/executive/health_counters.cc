@@ -1,5 +1,6 @@
 #include "flight/executive/health_counters.h"
 
+#include "flight/bus/counter.h"
 #include "saker/health_t.hpp"
 
 namespace saker::flight {
@@ -11,9 +12,7 @@ std::vector<counter_t> health_counters(const HealthFigures& figures) {
     for (const auto& [name, value] : *group) {
       if (counters.size() == health_t::MAX_COUNTERS) return counters;
       if (group == &figures.drops && value == 0) continue;
-      counter_t& counter = counters.emplace_back();
-      counter.name = name;
-      counter.value = value;
+      counters.push_back(counter(name, value));
     }
   }
   return counters;

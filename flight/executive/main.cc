@@ -8,6 +8,7 @@
 #include "flight/executive/executive.h"
 #include "flight/process/process.h"
 #include "flight/process/service.h"
+#include "saker/exchange/robot_key.h"
 #include "saker/lidar/metadata.h"
 #include "saker/objects/map_io.h"
 
@@ -39,8 +40,9 @@ int fly(const ProcessOptions& options, const FlightOptions& flight) {
   Bus bus(config.bus, options.robot);
   Presence presence(bus, "saker-flight");
   presence.claim();
-  const std::string key_note = exchange::team_key_note(config.exchange.key_file);
-  if (!key_note.empty()) spdlog::warn(key_note);
+  const exchange::RobotKeyFile key = exchange::robot_key_file(config.exchange.key_file);
+  if (!key.note.empty()) spdlog::warn(key.note);
+  config.exchange.key_file = key.file;
   const std::unique_ptr<RobotExchange> exchange = make_exchange(config, bus);
   std::optional<Briefing> briefing;
   if (exchange != nullptr) {

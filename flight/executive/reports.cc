@@ -5,26 +5,11 @@
 
 #include "flight/bus/messages.h"
 #include "flight/executive/executive.h"
+#include "flight/executive/plan_report.h"
 #include "flight/process/loop_report.h"
 
 /// What the executive says of itself: MISSION, PLAN, HEALTH, and lines.
 namespace saker::flight {
-namespace {
-
-candidate_t to_lcm(const active::ViewpointCandidate& candidate) {
-  candidate_t message{};
-  message.target_id = candidate.viewpoint.target_id;
-  for (int i = 0; i < 3; ++i) {
-    message.position[i] = static_cast<float>(candidate.viewpoint.position(i));
-  }
-  message.yaw = static_cast<float>(candidate.viewpoint.yaw);
-  message.gain = static_cast<float>(candidate.gain);
-  message.path_m = static_cast<float>(candidate.cost_m);
-  return message;
-}
-
-}  // namespace
-
 void Executive::publish_mission(const autonomy::MissionEvent* event) {
   if (event != nullptr) last_event_ = *event;
   mission_t message{};
@@ -51,15 +36,7 @@ void Executive::publish_plan(const autonomy::Planning::Output& output) {
     if (static_cast<int>(message.tour.size()) < plan_t::MAX_TOUR) message.tour.push_back(id);
   }
   message.num_tour = static_cast<std::int32_t>(message.tour.size());
-  message.choice = -1;
-  for (const active::ViewpointCandidate& candidate : output.plan.candidates) {
-    if (static_cast<int>(message.candidates.size()) >= plan_t::MAX_CANDIDATES) break;
-    const bool chosen = output.plan.goal && candidate.viewpoint.id == output.plan.goal->id;
-    if (candidate.refusal != active::Refusal::none && !chosen) continue;
-    if (chosen) message.choice = static_cast<std::int32_t>(message.candidates.size());
-    message.candidates.push_back(to_lcm(candidate));
-  }
-  message.num_candidates = static_cast<std::int32_t>(message.candidates.size());
+  write_candidates(output.plan, message);
   message.reason = shortened(output.report.text, plan_t::MAX_REASON);
   bus_.publish(message);
 }
@@ -99,6 +76,9 @@ HealthFigures Executive::health_figures() const {
   figures.faults = LoopFaultLog::counters(loops_, Loop::Steady::now());
   if (safety_.lands_alone()) figures.faults.emplace_back("safety_lands_alone", 1);
   if (main_threw_ > 0) figures.faults.emplace_back("main_threw", main_threw_);
+  const auto vehicle = board_.vehicle.latest();
+  if (!vehicle || !autonomy::BatteryWatch::is_known(vehicle->battery_share))
+    figures.faults.emplace_back("battery_unknown", 1);
   figures.orders = {{"orders_refused", order_receiver_.refused()}};
   if (const auto sensor = sensor_line_.figures())
     figures.sensor = health_of(*sensor, HealthFigures::kMostSensor);

@@ -51,6 +51,7 @@ autonomy::SupervisorInput SafetyLoop::seen(Time now) {
     input.planning = *report;
     input.heard.planning = report->stamp;
   }
+  if (const auto contact = board_.contact.latest()) input.contact = *contact;
   input.setpoint = board_.setpoint.latest();
   if (const auto stop = board_.stop.latest()) input.stop = *stop;
   input.heard.occupancy = board_.newest_grid;

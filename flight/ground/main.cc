@@ -9,6 +9,7 @@
 #include "flight/ground/live_source.h"
 #include "flight/ground/run_source.h"
 #include "flight/ground/server.h"
+#include "flight/ground/store_watch.h"
 #include "flight/ground/team_order_line.h"
 #include "flight/process/configuration.h"
 #include "flight/process/process.h"
@@ -112,6 +113,7 @@ int show_live(const ProcessConfig& config, viewers::Site site, const std::string
   }
   const ServerConfig how = server_config(config.ground);
   const Server server(how, hub);
+  const StoreWatch store(store_file(config.base), hub);
   say_address(server, how);
   flight::Service service;
   service.ready();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "flight/bus/counter.h"
 #include "flight/bus/exchange_messages.h"
 #include "flight/bus/multicast.h"
 #include "flight/bus/presence.h"
@@ -11,6 +12,7 @@
 #include "flight/process/process.h"
 #include "flight/process/service.h"
 #include "saker/core/error.h"
+#include "saker/exchange/robot_key.h"
 
 namespace saker::flight {
 namespace {
@@ -34,11 +36,7 @@ health_t health_of(const LinkEnd& end, LoopMeter& meter) {
   message.process = kRole;
   message.loops = {meter.take_period(kHealthPeriod, std::nan(""), counters.not_sent)};
   message.num_loops = 1;
-  for (const auto& [name, value] : figures) {
-    counter_t& counter = message.counters.emplace_back();
-    counter.name = name;
-    counter.value = value;
-  }
+  for (const auto& [name, value] : figures) message.counters.push_back(counter(name, value));
   message.num_counters = static_cast<std::int32_t>(message.counters.size());
   return message;
 }
@@ -79,9 +77,9 @@ int run(const ProcessOptions& options) {
   if (is_own(address_of("link.ground", config.link.ground)))
     throw Error("link.ground " + config.link.ground +
                 " is this machine: its LCM would hear late what it said before");
-  const exchange::Key key = exchange::read_key(config.exchange.key_file);
-  const std::string note = exchange::team_key_note(config.exchange.key_file);
-  if (!note.empty()) spdlog::warn(note);
+  const exchange::RobotKeyFile key_file = exchange::robot_key_file(config.exchange.key_file);
+  if (!key_file.note.empty()) spdlog::warn(key_file.note);
+  const exchange::Key key = exchange::read_key(key_file.file);
   Bus bus = Bus::on_network(config.bus.control_url, config.bus.receive_buffer_kb, options.robot);
   Presence presence(bus, kRole);
   Radio radio(config.link, LinkEnd::End::robot, 0, key, bus, 1);

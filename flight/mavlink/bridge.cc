@@ -26,6 +26,7 @@ bool Bridge::Timer::due(Time now) {
 Bridge::Bridge(const BridgeConfig& config, const std::optional<SigningKey>& key)
     : config_(core::checked(config, "mavlink")),
       dialect_(dialect_of(config.autopilot)),
+      mounting_(config.place_m, config.rotation_deg),
       signing_(key ? std::optional<Signing>{{*key, 0, {}}} : std::nullopt),
       reader_(signing_ ? &*signing_ : nullptr),
       writer_(static_cast<std::uint8_t>(config.system),
@@ -113,7 +114,7 @@ void Bridge::hear_autopilot(const Frame& frame, Time now) {
 }
 
 void Bridge::hear(const VehicleOdometry& odometry, Time now) {
-  const OdometryOut::Result result = odometry_.hear(odometry, now);
+  const OdometryOut::Result result = odometry_.hear(mounting_.odometry(odometry), now);
   if (!state_.connected(now)) return;
   if (result.message) {
     send(*result.message);
@@ -131,7 +132,7 @@ void Bridge::hear(const VehicleOdometry& odometry, Time now) {
 }
 
 void Bridge::hear(const Setpoint& setpoint, Time now) {
-  setpoints_.hear(setpoint, sensor_time(now));
+  setpoints_.hear(mounting_.setpoint(setpoint), sensor_time(now));
 }
 
 void Bridge::hear(const Command& command, Time now) {
@@ -365,7 +366,7 @@ std::optional<VehicleState> Bridge::vehicle_state(Time now) const {
   state.stamp = sensor_time(now);
   state.armed = s.armed;
   state.mode = mode(now);
-  state.attitude = s.attitude;
+  state.attitude = mounting_.attitude(s.attitude);
   state.height_m = state_.height_m();
   state.battery_share = s.battery_share;
   if (!authority_.ours()) state.faults |= kTakenOver;

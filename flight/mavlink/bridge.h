@@ -10,6 +10,7 @@
 #include "flight/mavlink/commands.h"
 #include "flight/mavlink/config.h"
 #include "flight/mavlink/frame.h"
+#include "flight/mavlink/mounting.h"
 #include "flight/mavlink/odometry_out.h"
 #include "flight/mavlink/setpoint_out.h"
 #include "flight/mavlink/state_in.h"
@@ -92,6 +93,7 @@ class Bridge {
 
   BridgeConfig config_;
   Dialect dialect_;
+  Mounting mounting_;  // odometry and setpoints are the autopilot's from here on
   std::optional<Signing> signing_;
   FrameReader reader_;
   FrameWriter writer_;

@@ -37,19 +37,24 @@ class Talk {
                 static_cast<std::uint8_t>(config.bridge.component)),
         line_(parsed_address(config.line)) {}
 
-  /// The autopilot's system, from its heartbeat; nothing: none came. Throws Error on another kind.
-  [[nodiscard]] std::optional<std::uint8_t> meet() {
-    const Time end = host_now() + kPatience;
-    std::optional<std::uint8_t> system;
-    while (!system && host_now() < end && stop_requests() == 0) {
+  /// Who says HEARTBEAT as an autopilot.
+  struct Met {
+    std::uint8_t system = 0;
+    std::uint8_t kind = 0;  // MAV_AUTOPILOT
+  };
+
+  /// Nothing: none was heard.
+  [[nodiscard]] std::optional<Met> meet(Time patience) {
+    const Time end = host_now() + patience;
+    std::optional<Met> met;
+    while (!met && host_now() < end && stop_requests() == 0) {
       step([&](const Frame& frame) {
         if (frame.id != Heartbeat::kId || frame.component != kAutopilotComponent) return;
         if (config_.autopilot_system != 0 && frame.system != config_.autopilot_system) return;
-        expect_kind(decode<Heartbeat>(frame.bytes()).autopilot);
-        system = frame.system;
+        met = {frame.system, decode<Heartbeat>(frame.bytes()).autopilot};
       });
     }
-    return system;
+    return met;
   }
 
   void run(ParameterExchange& exchange, std::uint8_t system) {
@@ -70,14 +75,6 @@ class Talk {
   [[nodiscard]] static std::optional<Signing> signing_of(const std::string& file) {
     if (file.empty()) return std::nullopt;
     return Signing{.key = read_signing_key(file), .clock = {}};
-  }
-
-  void expect_kind(std::uint8_t kind) const {
-    const std::uint8_t expected = dialect_of(config_.autopilot).heartbeat_kind;
-    if (kind == expected) return;
-    throw Error(
-        fmt::format("mavlink.autopilot: the line has kind {} of MAV_AUTOPILOT, expected {} ({})",
-                    kind, expected, to_string(config_.autopilot)));
   }
 
   template <class Message>
@@ -120,22 +117,36 @@ class Talk {
   Time next_heartbeat_ = 0;
 };
 
-ParameterTable table_of(const MavlinkConfig& config, const CheckOptions& options) {
+/// Empty: the autopilot is the configured one.
+std::string another_kind(const BridgeConfig& config, std::uint8_t kind) {
+  const std::uint8_t expected = dialect_of(config.autopilot).heartbeat_kind;
+  if (kind == expected) return "";
+  return fmt::format("mavlink.autopilot: the line has kind {} of MAV_AUTOPILOT, expected {} ({})",
+                     kind, expected, to_string(config.autopilot));
+}
+
+/// \param option  of the command line; empty: the configuration's
+ParameterTable table_of(const MavlinkConfig& config, const std::string& option) {
   const Autopilot autopilot = config.bridge.autopilot;
-  const std::string file = options.table.empty()
-                               ? fmt::format("autopilots/{}.yaml", to_string(autopilot))
-                               : options.table;
-  ParameterTable table =
-      read_parameter_table(core::find_in_configs(file, "--table"), config.bridge.system);
+  const std::string own = fmt::format("autopilots/{}.yaml", to_string(autopilot));
+  const std::string file = !option.empty() ? option : !config.table.empty() ? config.table : own;
+  ParameterTable table = read_parameter_table(
+      core::find_in_configs(file, option.empty() ? "mavlink.table" : "--table"),
+      config.bridge.system);
   if (table.autopilot == autopilot) return table;
   throw Error(fmt::format("{}: autopilot {}, expected {} as mavlink.autopilot says", file,
                           to_string(table.autopilot), to_string(autopilot)));
 }
 
+bool fits(const ExpectedParameter& expected, const Parameter& read, double latency_ms) {
+  if (read.outcome != ParameterOutcome::known) return expected.optional;
+  return expected.fits(read.value, latency_ms);
+}
+
 /// Prints one. \return whether it is as it has to be
 bool print(const ExpectedParameter& expected, const Parameter& read, double latency_ms) {
   const bool missing = read.outcome != ParameterOutcome::known;
-  const bool fine = missing ? expected.optional : expected.fits(read.value, latency_ms);
+  const bool fine = fits(expected, read, latency_ms);
   const std::string value = missing ? "–" : fmt::format("{:g}", read.value);
   fmt::print("{:<6} {:<17} {:>9}  {}\n", fine ? "ok" : "wrong", expected.name, value,
              expected.expected_text(latency_ms));
@@ -186,25 +197,52 @@ int check_parameters(const MavlinkConfig& config, const CheckOptions& options) {
   if (options.write && options.confirm != kSecondWord) {
     throw Error(fmt::format("--write: expected --confirm {} beside it", kSecondWord));
   }
-  const ParameterTable table = table_of(config, options);
+  const ParameterTable table = table_of(config, options.table);
   const bool bytewise = config.bridge.autopilot == Autopilot::px4;
   Talk talk(config);
-  const auto system = talk.meet();
-  if (!system) {
+  const auto met = talk.meet(kPatience);
+  if (!met) {
     spdlog::error("no heartbeat on {} for {:g} s{}{}", config.line, to_seconds(kPatience),
                   talk.fault().empty() ? "" : ": ", talk.fault());
     return 1;
   }
-  fmt::print("{}, system {}; table: {} ({})\n", to_string(table.autopilot), *system, table.firmware,
-             table.evidence);
-  ParameterExchange exchange(to_read(table), *system, kAutopilotComponent, bytewise);
-  talk.run(exchange, *system);
+  if (const std::string other = another_kind(config.bridge, met->kind); !other.empty())
+    throw Error(other);
+  fmt::print("{}, system {}; table: {} ({})\n", to_string(table.autopilot), met->system,
+             table.firmware, table.evidence);
+  ParameterExchange exchange(to_read(table), met->system, kAutopilotComponent, bytewise);
+  talk.run(exchange, met->system);
   bool all = true;
   for (std::size_t i = 0; i < table.parameters.size(); ++i)
     all = print(table.parameters[i], exchange.parameters()[i], options.latency_ms) && all;
   const auto differing = to_write(table, exchange.parameters(), options.latency_ms);
   if (!options.write || differing.empty()) return all ? 0 : 1;
-  return write(talk, differing, *system, bytewise) ? 0 : 1;
+  return write(talk, differing, met->system, bytewise) ? 0 : 1;
+}
+
+AutopilotLook look_at_autopilot(const MavlinkConfig& config, Time patience) {
+  using Outcome = AutopilotLook::Outcome;
+  const ParameterTable table = table_of(config, "");
+  Talk talk(config);
+  const auto met = talk.meet(patience);
+  if (!met)
+    return {Outcome::silent, talk.fault().empty() ? fmt::format("no heartbeat on {} for {:g} s",
+                                                                config.line, to_seconds(patience))
+                                                  : talk.fault()};
+  if (std::string other = another_kind(config.bridge, met->kind); !other.empty())
+    return {Outcome::another, std::move(other)};
+  ParameterExchange exchange(to_read(table), met->system, kAutopilotComponent,
+                             config.bridge.autopilot == Autopilot::px4);
+  talk.run(exchange, met->system);
+  std::vector<std::string> differing;
+  for (std::size_t i = 0; i < table.parameters.size(); ++i)
+    if (!fits(table.parameters[i], exchange.parameters()[i], NAN))
+      differing.push_back(table.parameters[i].name);
+  const std::string who = fmt::format("{}, system {}", to_string(table.autopilot), met->system);
+  if (differing.empty())
+    return {Outcome::fits, fmt::format("{}, {} parameters fit", who, table.parameters.size())};
+  return {Outcome::differs,
+          fmt::format("{}, not as they have to be: {}", who, fmt::join(differing, ", "))};
 }
 
 }  // namespace saker::flight::mavlink

@@ -19,6 +19,8 @@ struct BridgeConfig {
   int autopilot_system = 0;
   double latitude_deg = 47.0, longitude_deg = 8.0, altitude_m = 400;
   double battery_low = 0.2;
+  std::vector<double> place_m = {0, 0, 0};
+  std::vector<double> rotation_deg = {0, 0, 0};
   // An autopilot that does not follow a reset of the heading would fly with a wrong one.
   double most_reset_yaw = 0.05;
 
@@ -37,6 +39,11 @@ struct BridgeConfig {
     v.field("altitude_m", altitude_m, {-500, 9000}, "m", "of that place");
     v.field("battery_low", battery_low, {0, 1}, "",
             "share of the emptiest pack below which the executive is told");
+    v.setting("place_m", place_m, {-5, 5}, "m",
+              "Place of the autopilot in body: x forward, y left, z up.");
+    v.setting("rotation_deg", rotation_deg, {-180, 180}, "°",
+              "Roll, pitch and yaw of the autopilot in body that its own board rotation does not "
+              "take away.");
     v.field("most_reset_yaw", most_reset_yaw, {0, 3.2}, "rad",
             "of a reset of odometry; more, and an autopilot that does not follow it lands");
   }
@@ -46,6 +53,7 @@ struct MavlinkConfig {
   BridgeConfig bridge;
   std::string line = "udp:listen:14550";
   std::string signing_key;
+  std::string table;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -55,6 +63,8 @@ struct MavlinkConfig {
     v.setting("signing_key", signing_key, "",
               "File of 64 hexadecimal digits, the autopilot's key (SETUP_SIGNING); empty: not "
               "signed.");
+    v.setting("table", table, "",
+              "What its parameters have to be, a file of configs/autopilots; empty: its kind's.");
   }
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
@@ -112,6 +113,8 @@ void Line::open() {
 void Line::open_serial() {
   descriptor_ = ::open(address_.place.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) return broke("cannot be opened", errno);
+  // Two readers of one port would share its bytes.
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) return broke("another program has it", errno);
   termios settings{};
   if (::tcgetattr(descriptor_, &settings) != 0) return broke("is no serial port", errno);
   ::cfmakeraw(&settings);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
+#include "flight/bus/counter.h"
 #include "flight/bus/messages.h"
 #include "flight/mavlink/host_clock.h"
 
@@ -17,13 +20,6 @@ constexpr int kMostReads = 64;                       // in one step
 std::optional<SigningKey> key_of(const std::string& file) {
   if (file.empty()) return std::nullopt;
   return read_signing_key(file);
-}
-
-counter_t counter(const char* name, long value) {
-  counter_t message{};
-  message.name = name;
-  message.value = value;
-  return message;
 }
 
 }  // namespace
@@ -41,8 +37,7 @@ void MavlinkProcess::subscribe() {
     const auto odometry = from_lcm(message);
     if (!odometry) return false;
     const LoopMeter::Run run(odometry_meter_);
-    bridge_.hear(*odometry, host_now());
-    write_line();
+    pass_on(*odometry);
     return true;
   });
   bus_.subscribe<setpoint_t>([this](const setpoint_t& message) {
@@ -55,6 +50,25 @@ void MavlinkProcess::subscribe() {
     if (command) bridge_.hear(*command, host_now());
     return command.has_value();
   });
+}
+
+void MavlinkProcess::pass_on(const VehicleOdometry& odometry) {
+  const long sent = bridge_.counters().odometry;
+  const Time heard = host_now();
+  bridge_.hear(odometry, heard);
+  write_line();
+  if (bridge_.counters().odometry == sent) return;
+  const double added_s = to_seconds(host_now() - heard);
+  added_.add(added_s);
+  since_stamp_.add(bridge_.odometry().latency_s() + added_s);
+}
+
+std::string MavlinkProcess::latency_text() const {
+  return fmt::format(
+      "{} of odometry: {:.3f} ms through the bridge (95 %: {:.3f}), {:.1f} ms since its stamp "
+      "(95 %: {:.1f})",
+      added_.count(), 1e3 * added_.quantile(0.5), 1e3 * added_.quantile(0.95),
+      1e3 * since_stamp_.quantile(0.5), 1e3 * since_stamp_.quantile(0.95));
 }
 
 void MavlinkProcess::step() {
@@ -127,6 +141,10 @@ void MavlinkProcess::say_health(Time now) {
                      counter("bytes_received", line_.counters().received),
                      counter("reboots", bridge_.time_sync().restarts()),
                      counter("not_sent", not_sent_)};
+  if (added_.count() > 0) {
+    health.counters.push_back(counter("added_median_us", std::lround(1e6 * added_.quantile(0.5))));
+    health.counters.push_back(counter("added_p95_us", std::lround(1e6 * added_.quantile(0.95))));
+  }
   if (offset) health.counters.push_back(counter("time_bound_us", offset->bound / 1000));
   health.num_counters = static_cast<std::int32_t>(health.counters.size());
   not_sent_ += !bus_.publish(health);

@@ -7,6 +7,7 @@
 
 #include "flight/bus/bus.h"
 #include "flight/mavlink/bridge.h"
+#include "flight/mavlink/latency.h"
 #include "flight/mavlink/line.h"
 #include "flight/process/loop_meter.h"
 
@@ -26,10 +27,16 @@ class MavlinkProcess {
   /// Reads the line, does and says what is due.
   void step();
 
+  /// How long odometry took, in one line for the log.
+  [[nodiscard]] std::string latency_text() const;
+
   [[nodiscard]] const Bridge& bridge() const { return bridge_; }
+  /// From hearing odometry to ODOMETRY on the line.
+  [[nodiscard]] const LatencyHistogram& added() const { return added_; }
 
  private:
   void subscribe();
+  void pass_on(const VehicleOdometry& odometry);
   void read_line();
   void write_line();
   void say_state(Time now);
@@ -44,6 +51,8 @@ class MavlinkProcess {
   Time last_bytes_ = 0;  // when the line was not silent
   bool settled_ = true;
   LoopMeter line_meter_{"line"}, odometry_meter_{"odometry"};
+  LatencyHistogram added_;
+  LatencyHistogram since_stamp_;  // from the stamp of odometry to the line
   long not_sent_ = 0;
   std::string logged_;  // what was logged last
 };

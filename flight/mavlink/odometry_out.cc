@@ -48,6 +48,7 @@ OdometryOut::Result OdometryOut::hear(const VehicleOdometry& odometry, Time host
     ++counters_.resets;
   } else if (!plausible(odometry)) {
     ++counters_.lies;
+    lied_ = true;
     good_since_.reset();
     newest_ = odometry;
     return {};
@@ -55,6 +56,10 @@ OdometryOut::Result OdometryOut::hear(const VehicleOdometry& odometry, Time host
   newest_ = odometry;
   if (!good_since_) good_since_ = host_now;
   good_at_ = host_now;
+  // Where it jumped to is nothing to fly on; later it is the beginning of another odometry.
+  if (lied_ && !good(host_now)) return result;
+  reset_count_ = static_cast<std::uint8_t>(reset_count_ + lied_);
+  lied_ = false;
   if (!reset && sent_at_ != 0 && since(sent_at_, host_now) < config_.least_period_s) return result;
   const Time host_stamp = std::min(clock_.host(odometry.stamp).value_or(host_now), host_now);
   result.message = message(odometry, host_stamp);

@@ -10,7 +10,9 @@
 /// Reads `VehicleOdometry` in `odom` (continuous; the corrected `world` never comes here) with the
 /// host's time at which it came. Makes ODOMETRY in LOCAL_FRD with FRD as child (ArduPilot takes no
 /// other), estimator VIO (PX4 refuses LIDAR), at most once in 25 ms (ArduPilot takes one in 20 ms,
-/// PX4 needs one in 200 ms), stamped in the host's clock.
+/// PX4 needs one in 200 ms), stamped in the host's clock. After a lie nothing is made until
+/// odometry was good for a while: then its reset counter goes up, so that nobody flies the jump
+/// back.
 namespace saker::flight::mavlink {
 
 /// Constants of the method, in SI units.
@@ -72,6 +74,7 @@ class OdometryOut {
   Time same_place_since_ = 0;       // by stamps
   std::optional<Time> good_since_;  // host's time
   Time good_at_ = 0, sent_at_ = 0;  // host's time
+  bool lied_ = false;               // and what came since is not trusted yet
   std::uint8_t reset_count_ = 0;    // on the wire
   double latency_s_ = NAN;
   Counters counters_;

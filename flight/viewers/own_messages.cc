@@ -179,6 +179,10 @@ std::optional<Json> plan_message(const RobotState& state) {
     const candidate_t& candidate = message.candidates[i];
     const Eigen::Vector3d p = vector3(candidate.position);
     if (!p.allFinite() || !std::isfinite(candidate.yaw)) continue;
+    if (const std::string reason = refusal_words(candidate); !reason.empty()) {
+      refused.push_back({{"position", array(p)}, {"reason", reason}});
+      continue;
+    }
     Json json = {{"target_id", candidate.target_id},
                  {"position", array(p)},
                  {"yaw_rad", rounded(candidate.yaw)}};
@@ -187,8 +191,6 @@ std::optional<Json> plan_message(const RobotState& state) {
     json["chosen"] = static_cast<int>(i) == message.choice;
     candidates.push_back(std::move(json));
   }
-  for (const auto& [p, reason] : state.refused)
-    refused.push_back({{"position", array(p)}, {"reason", reason}});
   return Json{{"utime", message.utime},
               {"frame", frame_of(state, "world")},
               {"trajectory_id", message.trajectory_id},

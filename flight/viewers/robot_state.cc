@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "flight/bus/object_messages.h"
+#include "saker/active/views/viewpoint.h"
 
 namespace saker::flight::viewers {
 namespace {
@@ -86,6 +87,13 @@ std::map<int, int> targets_by_object(const RobotState& state, const Site& site) 
     if (nearest >= 0) found.emplace(nearest, target.id);
   }
   return found;
+}
+
+std::string refusal_words(const candidate_t& candidate) {
+  constexpr float kLast = static_cast<float>(active::Refusal::region);
+  if (!(candidate.gain < 0)) return "";
+  if (candidate.gain < -kLast) return "refused";  // for a reason that a newer robot has
+  return to_string(static_cast<active::Refusal>(std::lround(-candidate.gain)));
 }
 
 }  // namespace saker::flight::viewers

@@ -85,8 +85,7 @@ struct RobotState {
   std::int64_t objects_utime = 0;
   int objects_total = 0;
   std::vector<objects::GroundPlane> ground;
-  std::map<int, TargetNote> targets;                             ///< by the id of the target
-  std::vector<std::pair<Eigen::Vector3d, std::string>> refused;  ///< viewpoints, and why
+  std::map<int, TargetNote> targets;  ///< by the id of the target
   FlownPath path;
   double gain_nat = 0;  ///< promised by viewpoints that were chosen
 
@@ -94,6 +93,9 @@ struct RobotState {
   long malformed = 0;
   std::deque<double> arrivals;  ///< of the last two seconds
 };
+
+/// Why a viewpoint was refused, as PLAN says it; empty where it was not.
+[[nodiscard]] std::string refusal_words(const candidate_t& candidate);
 
 [[nodiscard]] inline std::string frame_of(const RobotState& state, const char* frame) {
   return state.robot + "/" + frame;

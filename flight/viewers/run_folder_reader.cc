@@ -84,7 +84,7 @@ void read_windows(const fs::path& file, RobotRun& run) {
 }
 
 int code_of(const std::string& cause) {
-  for (int code = 0; code <= static_cast<int>(autonomy::Cause::ordered); ++code) {
+  for (int code = 0; code <= static_cast<int>(autonomy::kLastCause); ++code) {
     if (cause == to_string(static_cast<autonomy::Cause>(code))) return code;
   }
   return 0;

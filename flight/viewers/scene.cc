@@ -114,6 +114,7 @@ Json viewpoints(const RobotState& state, double t) {
   const plan_t& plan = state.plan->message;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const candidate_t& candidate = plan.candidates[i];
+    if (!refusal_words(candidate).empty()) continue;
     SE3 pose = SE3::Identity();
     pose.translation() = vector_of(candidate.position);
     if (!pose.translation().allFinite() || !std::isfinite(candidate.yaw)) continue;

@@ -92,7 +92,7 @@ std::string odometry_word(int status) {
 }
 
 std::string cause_word(int code) {
-  const bool known = code >= 0 && code <= static_cast<int>(Cause::ordered);
+  const bool known = code >= 0 && code <= static_cast<int>(autonomy::kLastCause);
   return known ? to_string(static_cast<Cause>(code)) : "unknown";
 }
 

@@ -8,11 +8,14 @@ namespace saker::autonomy {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr Time kMemory = 2 * kNanosecondsPerSecond;  // of samples: no scan comes so late
+constexpr double kMemory_s = 2;           // of samples: no scan comes so late
 constexpr double kLongestAhead_s = 0.05;  // of the newest sample; then it is taken to stay
 constexpr double kMostAheadOfNow_s =
     0.25;                              // a clock may lag while it follows packets that got faster
 constexpr double kStartSpeed_mps = 1;  // sd at the first scan: on the ground, or in a hand
+/// Of a place, squared, in sd. By the configured noise it were 3 on average; registration errs by a
+/// third of that or less: 0.3 at most in made flights.
+constexpr double kSurprising = 2;
 
 Matrix6d diagonal(double rotation_sd, double translation_sd) {
   Vector6d variance;
@@ -34,7 +37,8 @@ BodyPose::BodyPose(const BodyPoseConfig& config, const odometry::InertialConfig&
 void BodyPose::add(const lidar::ImuSample& sample, Time now) {
   if (to_seconds(sample.stamp) - to_seconds(now) > kMostAheadOfNow_s) return;
   if (!sample.acceleration.allFinite() || !sample.angular_velocity.allFinite()) return;
-  imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - kMemory));
+  const double memory_s = std::max(config_.coast_s, kMemory_s);
+  imu_.add({&sample, 1}, std::max(scan_.stamp(), sample.stamp - from_seconds(memory_s)));
   if (started_) newest_.propagate(sample);
 }
 
@@ -50,12 +54,22 @@ void BodyPose::correct(Time stamp, const SE3& T_odom_lidar, const Matrix6d& cova
     if (jumped(scan_.T_odom_lidar(), T_odom_lidar)) {
       ++reset_counter_;
       scan_.jump(T_odom_lidar, noise);
+      off_.setZero();
     } else {
+      weigh(T_odom_lidar, noise);
       scan_.correct(T_odom_lidar, noise);
     }
   }
   newest_ = scan_;
   for (const lidar::ImuSample& sample : imu_.samples()) newest_.propagate(sample);
+}
+
+/// Before a correction.
+void BodyPose::weigh(const SE3& measured, const Matrix6d& noise) {
+  const odometry::InertialFilter::Surprise surprise = scan_.surprise(measured, noise);
+  const bool large = surprise.square > kSurprising;
+  if (large && off_.dot(surprise.off) > 0) scan_.doubt(surprise, noise);
+  off_ = large ? surprise.off : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 bool BodyPose::jumped(const SE3& predicted, const SE3& measured) const {
@@ -81,13 +95,18 @@ VehicleOdometry BodyPose::at(Time now) const {
   result.angular_velocity = T_body_lidar_.linear() * lidar.rate();
   const Matrix6d to_body = core::se3_adjoint(T_body_lidar_);
   result.covariance = to_body * lidar.pose_covariance() * to_body.transpose();
-  const double age = to_seconds(now - scan_.stamp());
-  const double silent = to_seconds(now - newest);
-  const bool fresh = age <= config_.fresh_s && std::abs(silent) <= kLongestAhead_s;
-  result.status = fresh                   ? VehicleOdometryStatus::ok
-                  : age <= config_.lost_s ? VehicleOdometryStatus::predicted
-                                          : VehicleOdometryStatus::lost;
+  result.status = status(now, result.covariance);
   return result;
+}
+
+VehicleOdometryStatus BodyPose::status(Time now, const Matrix6d& covariance) const {
+  const double age = to_seconds(now - scan_.stamp());
+  const bool heard = std::abs(to_seconds(now - newest_.stamp())) <= kLongestAhead_s;
+  if (age <= config_.fresh_s && heard) return VehicleOdometryStatus::ok;
+  const double sd = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  const bool coasts = heard && age <= config_.coast_s && sd <= config_.coast_sd_m;
+  const bool known = age <= config_.lost_s || coasts;
+  return known ? VehicleOdometryStatus::predicted : VehicleOdometryStatus::lost;
 }
 
 }  // namespace saker::autonomy

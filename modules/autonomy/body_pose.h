@@ -15,14 +15,19 @@
 /// extrinsics, its velocity by the lever. Method: the error-state Kalman filter of
 /// `odometry/inertial_filter.h` from the newest registered scan on; a scan is weighed against the
 /// inertial unit by both covariances, however long ago the one before was: milliseconds (what came
-/// of a revolution before the network fell silent) or half a second. Cost: microseconds a sample; a
-/// correction integrates the samples since its stamp again.
+/// of a revolution before the network fell silent) or half a second. Two scans in a row that are
+/// off in the same direction by more than those of a flight ever are say that the inertial unit is
+/// not what it was: the filter doubts what it knows, its covariance says so, and biases are learnt
+/// anew. One scan alone may be wrong itself. Cost: microseconds a sample; a correction integrates
+/// the samples since its stamp again.
 namespace saker::autonomy {
 
 struct BodyPoseConfig {
   double fresh_s = 0.4;
   double lost_s = 1.0;
-  double jump_m = 1.0;
+  double coast_sd_m = 0.6;
+  double coast_s = 6.0;
+  double jump_m = 0.5;
   double jump_deg = 20;
   double sd_position_m = 0.03;
   double sd_rotation_deg = 0.3;
@@ -31,9 +36,14 @@ struct BodyPoseConfig {
   void visit(Visitor& v) {
     v.field("fresh_s", fresh_s, {0.1, 5}, "s",
             "age of the newest registered scan up to which the pose is ok: three scans, one late");
-    v.field("lost_s", lost_s, {0.2, 10}, "s", "age beyond which it is lost");
+    v.field("lost_s", lost_s, {0.2, 10}, "s",
+            "age beyond which it is lost, unless the inertial unit knows the place");
+    v.field("coast_sd_m", coast_sd_m, {0.01, 10}, "m",
+            "stated sd of the place up to which it does: what a vehicle at rest has about it");
+    v.field("coast_s", coast_s, {0.2, 60}, "s", "age beyond which it is lost in any case");
     v.field("jump_m", jump_m, {0.05, 20}, "m",
-            "off the prediction: odometry began anew; taken over, reset counted");
+            "off the prediction: odometry began anew; taken over, reset counted. What an autopilot "
+            "takes for a lie without a reset");
     v.field("jump_deg", jump_deg, {1, 180}, "°", "the same for attitude");
     v.field("sd_position_m", sd_position_m, {1e-3, 5}, "m",
             "of a registered scan, each axis, beside its own covariance");
@@ -56,20 +66,24 @@ class BodyPose {
   void correct(Time stamp, const SE3& T_odom_lidar, const Matrix6d& covariance);
 
   /// At `now`, propagated from the newest sample with its reading, but by 0.05 s at most: then its
-  /// stamp stays too. Not ok where the newest sample is that far ahead. Lost before the first
-  /// scan.
+  /// stamp stays too. Not ok where the newest sample is that far ahead. Lost before the first scan,
+  /// and where no scan was registered for so long that the stated covariance, or the silence of the
+  /// inertial unit, leaves the place open.
   [[nodiscard]] VehicleOdometry at(Time now) const;
 
  private:
+  [[nodiscard]] VehicleOdometryStatus status(Time now, const Matrix6d& covariance) const;
   [[nodiscard]] bool jumped(const SE3& predicted, const SE3& measured) const;
+  void weigh(const SE3& measured, const Matrix6d& noise);
 
   BodyPoseConfig config_;
   SE3 T_body_lidar_;
   Matrix6d scan_noise_;
   odometry::ImuBuffer imu_;  // since the last registered scan, bounded
   bool started_ = false;
-  odometry::InertialFilter scan_;    // at the last registered scan
-  odometry::InertialFilter newest_;  // at the newest sample
+  odometry::InertialFilter scan_;                  // at the last registered scan
+  odometry::InertialFilter newest_;                // at the newest sample
+  Eigen::Vector3d off_ = Eigen::Vector3d::Zero();  // of the last scan, m, where it surprised
   int reset_counter_ = 0;
 };
 

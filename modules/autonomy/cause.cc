@@ -44,8 +44,11 @@ const char* to_string(Cause cause) {
                                     "recovered",
                                     "ordered",
                                     "order_refused",
-                                    "taken_over"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(Cause::taken_over) + 1);
+                                    "taken_over",
+                                    "battery_unknown",
+                                    "takeoff_blocked",
+                                    "place_unfit"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(kLastCause) + 1);
   return kNames[static_cast<int>(cause)];
 }
 

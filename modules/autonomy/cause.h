@@ -20,7 +20,7 @@ enum class Cause {
   battery_empty,       ///< enough to land
   no_targets,          ///< no prior map, or no target in it
   nothing_classified,  ///< segmentation works, but gives next to no point a class
-  collision,           ///< the flight controller felt one
+  collision,           ///< a contact was felt
   vehicle_descends,    ///< the flight controller trusts no odometry and comes down by itself
   off_course,          ///< the vehicle does not follow its setpoints
   stopped,             ///< guidance stops on the way: the verdict, or there is none
@@ -47,9 +47,14 @@ enum class Cause {
   recovered,
   ordered,  ///< by the operator, or a signal
   // Others than the executive.
-  order_refused,  ///< what an operator ordered may not be now
-  taken_over,     ///< a pilot, or a failsafe of the autopilot, flies
+  order_refused,    ///< what an operator ordered may not be now
+  taken_over,       ///< a pilot, or a failsafe of the autopilot, flies
+  battery_unknown,  ///< the flight controller does not say how much charge is left
+  takeoff_blocked,  ///< the column above is not free, or not known to be
+  place_unfit,      ///< nothing to land on, by what was seen of the ground
 };
+
+inline constexpr Cause kLastCause = Cause::place_unfit;  ///< codes have no gap up to it
 
 /// One word, as MISSION shows it.
 [[nodiscard]] const char* to_string(Cause cause);

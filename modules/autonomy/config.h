@@ -2,6 +2,7 @@
 
 #include "saker/active/active.h"
 #include "saker/autonomy/body_pose.h"
+#include "saker/autonomy/contact_sense.h"
 #include "saker/autonomy/fitted_noise.h"
 #include "saker/autonomy/guidance.h"
 #include "saker/autonomy/local_checker.h"
@@ -69,6 +70,7 @@ struct Config {
   lidar::MountConfig mount;
   StandstillConfig standstill;
   BodyPoseConfig body_pose;
+  ContactConfig contact;
   motion::MotionConfig motion;
   motion::CollisionCheckerConfig collision_checker;
   active::ActiveConfig active;
@@ -92,6 +94,7 @@ struct Config {
     v.group("mount", mount, "where the lidar is on the body: T_body_lidar");
     v.group("standstill", standstill, "when odometry begins in flight");
     v.group("body_pose", body_pose, "the pose between scans");
+    v.group("contact", contact, "what the accelerometer feels");
     v.group("motion", motion, "trajectories");
     v.group("collision_checker", collision_checker, "occupancy and verdicts");
     v.group("active", active, "where to look next");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -21,6 +22,8 @@ class Delayed {
     waiting_.pop_front();
     return value;
   }
+
+  [[nodiscard]] std::size_t size() const { return waiting_.size(); }
 
  private:
   std::deque<std::pair<Time, T>> waiting_;

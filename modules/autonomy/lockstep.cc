@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "saker/autonomy/label_counts.h"
+
 namespace saker::autonomy {
 namespace {
 
@@ -91,23 +93,18 @@ void Lockstep::start_segmentation(const std::shared_ptr<const lidar::Scan>& scan
 }
 
 void Lockstep::count(const lidar::Scan& scan, const lidar::Labels& labels) {
-  std::int64_t points = 0, classified = 0, millionths = 0;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!scan.points[i].allFinite()) continue;
-    ++points;
-    classified += labels.classes[i] != 0;
-    millionths += std::lround(1e6 * labels.probability[i]);
-  }
-  points_ += points;
-  classified_ += classified;
-  probability_millionths_ += millionths;
+  const LabelCounts counts = counted(scan.points, labels);
+  points_ += counts.points;
+  classified_ += counts.classified;
+  probability_millionths_ += counts.probability_millionths;
 }
 
 SegmentationFit Lockstep::fit() const {
-  const auto points = static_cast<double>(points_.load());
-  if (points == 0) return {};
-  return {.probability = static_cast<double>(probability_millionths_.load()) / points / 1e6,
-          .classified_share = static_cast<double>(classified_.load()) / points};
+  const LabelCounts sum{points_, classified_, probability_millionths_};
+  if (sum.points == 0) return {};
+  const auto points = static_cast<double>(sum.points);
+  return {.probability = static_cast<double>(sum.probability_millionths) / points / 1e6,
+          .classified_share = sum.classified_share()};
 }
 
 /// Called when the newest scan has just been labelled: the detections are given in its frame.

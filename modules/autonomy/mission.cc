@@ -5,6 +5,13 @@
 #include <utility>
 
 namespace saker::autonomy {
+namespace {
+
+constexpr double kSeen_s = 2.5;     // planning looks every second
+constexpr double kSame_m = 0.5;     // from the place that was judged
+constexpr double kRests_mps = 0.6;  // 0.1 m to a stop
+
+}  // namespace
 
 const char* to_string(MissionPhase phase) {
   constexpr const char* kNames[] = {"preflight", "arming", "takeoff", "tour",
@@ -37,6 +44,7 @@ void Mission::fail(Cause cause) {
 }
 
 void Mission::land(Cause cause, core::Text text) {
+  seeking_ = false;
   go(MissionPhase::landing, cause, std::move(text));
   if (!silent_) commands_.issue(CommandKind::land, NAN, now_);
 }
@@ -86,6 +94,9 @@ MissionOrders Mission::orders() const {
       return {GuidanceOrder::follow, PlanningOrder::tour};
     case MissionPhase::return_home:
       return {GuidanceOrder::follow, PlanningOrder::home};
+    case MissionPhase::landing:
+      if (!seeking_) return {};
+      return {rests_ ? GuidanceOrder::follow : GuidanceOrder::hold, PlanningOrder::land};
     case MissionPhase::hold:
       return {standing_.taken_over ? GuidanceOrder::silent : GuidanceOrder::hold,
               PlanningOrder::none};
@@ -110,12 +121,13 @@ void Mission::preflight(const MissionInput& input) {
   if (input.land_ordered) {
     fail(Cause::ordered);
     go(MissionPhase::done, Cause::ordered, "ended before take-off");
-  } else if (input.marked && clear_since_ != 0 &&
+  } else if (input.marked && input.looked_up && clear_since_ != 0 &&
              now_ - clear_since_ >= from_seconds(config_.settle_s)) {
     go(MissionPhase::arming, Cause::ready, "all is there");
     commands_.issue(CommandKind::arm, NAN, now_);
   } else if (overdue(config_.preflight_s)) {
     fail(Cause::preflight_deadline);
+    if (faults.empty() && !input.looked_up) faults = "nobody has looked at the column above";
     if (faults.empty() && !input.marked) faults = "the flight could not be marked";
     go(MissionPhase::done, Cause::preflight_deadline, "no take-off: " + faults);
   }
@@ -185,13 +197,13 @@ void Mission::return_home(const MissionInput& input) {
   const PlanningReport& plan = input.planning;
   if (return_begun_ == 0) return_begun_ = now_;
   if (plan.order == PlanningOrder::home && plan.status == PlanningStatus::home_reached) {
-    land(Cause::home_reached, plan.text);
+    come_down(input, Cause::home_reached, plan.text);
   } else if (plan.order == PlanningOrder::home && plan.status == PlanningStatus::home_unreachable) {
     fail(Cause::home_unreachable);
-    land(Cause::home_unreachable, "lands here: " + plan.text);
+    come_down(input, Cause::home_unreachable, "lands here: " + plan.text);
   } else if (now_ - return_begun_ > from_seconds(config_.return_s)) {
     fail(Cause::return_deadline);
-    land(Cause::return_deadline, core::text("not home after {:g} s", config_.return_s));
+    come_down(input, Cause::return_deadline, core::text("not home after {:g} s", config_.return_s));
   }
 }
 
@@ -213,7 +225,13 @@ bool Mission::obey_safety(const MissionInput& input) {
     fail(safety.cause);
     if (phase_ == MissionPhase::landing) say(safety.cause, safety.text + "; no more setpoints");
   }
-  if (phase_ == MissionPhase::landing) return false;
+  if (phase_ == MissionPhase::landing) {
+    if (seeking_ && safety.action >= SafetyAction::hold) {
+      fail(safety.cause);
+      land(safety.cause, safety.text + "; lands here");
+    }
+    return false;
+  }
   if (safety.action >= SafetyAction::land) {
     fail(safety.cause);
     land(safety.cause, safety.text);
@@ -251,8 +269,47 @@ void Mission::say_stop(const GuidanceStop& stop) {
   stops_ = stop.count;
 }
 
+/// With time to look where: at once where the place below is fit, and in the climb, which the
+/// flight controller would go on with while no setpoint is there to hold it.
+void Mission::come_down(const MissionInput& input, Cause cause, core::Text text) {
+  if (phase_ == MissionPhase::takeoff || below_is_fit(input)) return land(cause, std::move(text));
+  const LandingPlace& below = input.planning.landing;
+  ground_ = below.ground;
+  go(MissionPhase::landing, cause, text + "; looks for a place: " + below.text());
+  seeking_ = true;
+  rests_ = false;
+}
+
+/// By what planning saw of it a moment ago, at rest.
+bool Mission::below_is_fit(const MissionInput& input) const {
+  const LandingPlace& below = input.planning.landing;
+  const Eigen::Vector3d off = input.odometry.T_odom_body.translation() - below.above;
+  return below.fit() && now_ - input.planning.stamp <= from_seconds(kSeen_s) &&
+         off.head<2>().norm() <= kSame_m && input.odometry.velocity.norm() <= kRests_mps;
+}
+
+/// True while it looks for a place to land on.
+bool Mission::seeks(const MissionInput& input) {
+  if (!seeking_) return false;
+  rests_ = rests_ || input.odometry.velocity.norm() <= kRests_mps;
+  const LandingPlace& below = input.planning.landing;
+  if (below_is_fit(input)) {
+    land(Cause::recovered, "the ground is fit here: lands");
+  } else if (overdue(config_.place_s)) {
+    fail(Cause::place_unfit);
+    land(Cause::place_unfit,
+         core::text("no fit place for {:g} s: lands here; ", config_.place_s) + below.text());
+  } else if (input.planning.order == PlanningOrder::land && below.ground != ground_ &&
+             !below.fit()) {
+    ground_ = below.ground;
+    say(Cause::place_unfit, "hovers: " + input.planning.text);
+  }
+  return true;
+}
+
 void Mission::landing(const MissionInput& input) {
   const bool down = input.vehicle.stamp != 0 && !input.vehicle.armed;
+  if (!down && seeks(input)) return;
   if (down) {
     go(MissionPhase::done, Cause::landed, core::text("outcome: {}", to_string(outcome_)));
   } else if (now_ - input.plant_heard > from_seconds(config_.gone_s)) {

@@ -28,8 +28,9 @@
 /// happens then only goes to the right: a mission ends. A hold goes back to what it interrupted, at
 /// most `most_holds` times; one by order returns after kOrderedHold_s. Landing alone has no way out
 /// but the ground, or that vehicle and lidar are gone: at each deadline the command is given again,
-/// and said so. An operator's orders act as orders.h has them; while a pilot flies the phase is
-/// hold. Reads no clock.
+/// and said so. Where there is time (home, an order to land) it first waits for planning to find a
+/// place that is fit, at most `place_s`, and says what is wrong with the one below. An operator's
+/// orders act as orders.h has them; while a pilot flies the phase is hold. Reads no clock.
 namespace saker::autonomy {
 
 enum class MissionPhase { preflight, arming, takeoff, tour, return_home, hold, landing, done };
@@ -46,6 +47,7 @@ struct MissionConfig {
   double tour_s = 1500;
   double return_s = 240;
   double landing_s = 60;
+  double place_s = 30;
   double gone_s = 3;
   int most_holds = 10;
   CommandConfig command;
@@ -70,6 +72,8 @@ struct MissionConfig {
               "The way home may take this time, then it lands where it is.");
     v.setting("landing_s", landing_s, {5, 600}, "s",
               "It must touch down within this time, else the command is repeated.");
+    v.setting("place_s", place_s, {0, 600}, "s",
+              "It looks for a fit place to land on for so long, then it lands where it is.");
     v.field("gone_s", gone_s, {1, 600}, "s",
             "landing, neither vehicle nor lidar heard: nothing is left to be flown; then end");
     v.setting("most_holds", most_holds, {0, 1000}, "",
@@ -101,6 +105,7 @@ struct MissionInput {
   Time plant_heard = 0;               ///< the newest state of the vehicle, or scan
   bool land_ordered = false;          ///< by a signal
   bool marked = true;                 ///< a restart would know of this flight: else it does not arm
+  bool looked_up = true;              ///< the column above was looked at: else it does not arm
   std::vector<Order> orders;          ///< of an operator, since the last step
 };
 
@@ -142,6 +147,9 @@ class Mission {
   void return_home(const MissionInput& input);
   void hold(const MissionInput& input);
   void landing(const MissionInput& input);
+  void come_down(const MissionInput& input, Cause cause, core::Text text);
+  [[nodiscard]] bool below_is_fit(const MissionInput& input) const;
+  [[nodiscard]] bool seeks(const MissionInput& input);
   void say_stop(const GuidanceStop& stop);
   [[nodiscard]] bool obey_safety(const MissionInput& input);
 
@@ -192,6 +200,9 @@ class Mission {
   int stops_ = 0;        // of guidance, that were said
   bool silent_ = false;  // odometry is lost
   bool land_refusal_said_ = false;
+  bool seeking_ = false;                // landing: a fit place, before the command
+  bool rests_ = false;                  // since it seeks
+  Ground ground_ = Ground::not_looked;  // seeking: what was said last of the place below
   StandingOrders standing_;
   Output out_;
 };

@@ -28,6 +28,7 @@ MissionLockstep::MissionLockstep(const Config& config, const lidar::SensorInfo& 
       ingestion_(config.odometry, config.standstill, sensor, lidar::mount_pose(config.mount)),
       body_pose_(config.body_pose, config.odometry.motion.inertial,
                  lidar::mount_pose(config.mount)),
+      contact_(config.contact, lidar::mount_pose(config.mount)),
       window_(config.detection.window_s),
       uncertainty_(uncertainty_for(config)),
       mapping_(config.detection, config.slam, config.objects, uncertainty_),
@@ -87,6 +88,7 @@ void MissionLockstep::receive(Time now) {
     gate_.correct(packet.payload, verdict);
     for (const lidar::ImuSample& sample : lidar::decode_imu(packet.payload, sensor_)) {
       body_pose_.add(sample, now);
+      contact_.add(sample);
     }
     ingestion_.add(packet.payload);
   }
@@ -217,6 +219,7 @@ void MissionLockstep::supervise(Time now) {
     input.T_world_odom = map_->T_world_odom;
     input.classified_share = map_->classified_share;
   }
+  input.contact = contact_.last();
   input.setpoint = setpoint_;
   input.acks = std::exchange(acks_, {});
   input.planning = report_;

@@ -91,6 +91,11 @@ class MissionLockstep {
   /// safety.
   void give(const Order& order) { given_.push_back(order); }
 
+  /// Results that are on their way between the stages.
+  [[nodiscard]] std::size_t waiting() const {
+    return scans_.size() + labels_.size() + maps_.size() + plans_.size();
+  }
+
  private:
   using Labels = std::shared_future<std::shared_ptr<const lidar::Labels>>;
   using Map = std::shared_future<std::shared_ptr<const MapSnapshot>>;
@@ -125,6 +130,7 @@ class MissionLockstep {
   lidar::SensorGate gate_;
   Ingestion ingestion_;
   BodyPose body_pose_;
+  ContactSense contact_;
   MotionLog motion_log_;
   LabelledWindow window_;
   std::shared_ptr<const uncertainty::Model> uncertainty_;  // null: nothing needs it

@@ -108,7 +108,7 @@ void Mission::act(OrderAct act, const MissionInput& input) {
       return recall(act == OrderAct::return_later, Cause::ordered, "ordered to return");
     case OrderAct::land:
       fail(Cause::ordered);
-      return land(Cause::ordered, "ordered to land");
+      return come_down(input, Cause::ordered, "ordered to land");
     case OrderAct::land_now:
       fail(Cause::ordered);
       return land(Cause::ordered, "ordered to come down at once");
@@ -230,6 +230,7 @@ bool Mission::somebody_else_flies(const MissionInput& input) {
 void Mission::hand_over() {
   commands_.cancel();
   out_.command.reset();
+  seeking_ = false;
   const bool climbs = phase_ == MissionPhase::takeoff;
   if (phase_ != MissionPhase::hold) interrupted_ = climbs ? MissionPhase::tour : phase_;
   if (standing_.since == 0) standing_.since = now_;

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "saker/autonomy/incomplete_targets.h"
+#include "saker/autonomy/label_counts.h"
 #include "saker/core/error.h"
 
 namespace saker::autonomy {
 namespace {
 
 constexpr std::size_t kMostMotions = 3000;       // five minutes of scans without a cycle
-constexpr objects::ClassId kOther = 0;           // objects::ClassTable
 constexpr std::size_t kMostLabelledScans = 100;  // 10 s at a sensor's full rate
 
 /// From a frame to the one with the same z axis, origin and heading of `T_frame_body`.
@@ -105,13 +105,6 @@ void LabelledWindow::add(detection::LabelledScan scan) {
   while (scans_.front().stamp < oldest || scans_.size() > kMostLabelledScans) scans_.pop_front();
 }
 
-/// Of a scan's points, those that are not `other`.
-double classified_share(const lidar::Labels& labels) {
-  if (labels.classes.empty()) return 0;
-  const auto others = std::ranges::count(labels.classes, kOther);
-  return 1 - static_cast<double>(others) / static_cast<double>(labels.classes.size());
-}
-
 Mapping::Mapping(const detection::DetectionConfig& detection, const slam::SlamConfig& slam,
                  const objects::ClassTable& table, std::shared_ptr<const uncertainty::Model> model)
     : iterations_(slam.graph.iterations),
@@ -132,7 +125,8 @@ std::shared_ptr<const MapSnapshot> Mapping::cycle(std::span<const detection::Lab
   snapshot->stamp = newest.stamp;
   snapshot->map = slam_.map_given_poses();
   snapshot->T_world_odom = slam_.T_world_odom();
-  snapshot->classified_share = classified_share(*newest.labels);
+  if (newest.points && newest.labels)
+    snapshot->classified_share = counted(*newest.points, *newest.labels).classified_share();
   return snapshot;
 }
 

@@ -56,11 +56,14 @@ Planning::Output Planning::step(const PlanningInput& input, const core::Budget& 
     goal_id_ = -1;
   }
   last_order_ = input.order;
+  if (input.grid && input.order != PlanningOrder::tour) look(input, output.report);
   if (input.order == PlanningOrder::none || input.committed == nullptr) return output;
   if (input.order == PlanningOrder::tour) {
     tour(input, budget, output);
-  } else {
+  } else if (input.order == PlanningOrder::home) {
     home(input, budget, output);
+  } else {
+    land(input, budget, output);
   }
   output.report.refusals = refusals_;
   return output;
@@ -133,6 +136,36 @@ void Planning::home(const PlanningInput& input, const core::Budget& budget, Outp
   if (way == Way::refused && refusals_ >= config_.most_refusals) {
     report.status = PlanningStatus::home_unreachable;
   }
+}
+
+LandingPlaces Planning::places(const PlanningInput& input) const {
+  return {config_.landing, planner_.config().clearance, *input.grid, kTakeoffFoot};
+}
+
+void Planning::look(const PlanningInput& input, PlanningReport& report) const {
+  const Eigen::Vector3d body = input.odometry.T_odom_body.translation();
+  report.landing = places(input).judge(body);
+  if (input.order != PlanningOrder::none) return;
+  const motion::Exemption stated{.takeoff = kTakeoffFoot, .vehicle = body};
+  report.column = look_up(*input.grid, body, home_.z(), planner_.config().clearance, stated);
+}
+
+/// Nothing where it is fit here: the mission lands.
+void Planning::land(const PlanningInput& input, const core::Budget& budget, Output& output) {
+  PlanningReport& report = output.report;
+  report.status = PlanningStatus::flying;
+  report.text = report.landing.text();
+  if (report.landing.fit()) return;
+  const Eigen::Vector3d body = input.odometry.T_odom_body.translation();
+  const auto place = input.grid ? places(input).nearest_fit(body) : std::nullopt;
+  if (!place) {
+    report.status = PlanningStatus::no_place;
+    report.text += core::text("; nothing fit within {:g} m", config_.landing.reach_m);
+    return;
+  }
+  const core::Text why = report.text;
+  if (way_to({place->above, std::nullopt}, input, budget, output) == Way::refused) return;
+  report.text = why + core::text("; moves {:.1f} m", (place->above - body).norm());
 }
 
 /// When what is proposed now begins.

@@ -17,7 +17,8 @@
 /// motion planner finds the way from the committed trajectory at now + horizon. Nothing is proposed
 /// while what is committed leads there. After `most_refusals` in a row the viewpoint is given back
 /// to it, which offers another one or ends; on the way home it is given up. Every refusal
-/// brings one of the two nearer: there is no livelock.
+/// brings one of the two nearer: there is no livelock. Beside that it looks up before the take-off
+/// and down before the landing, and leads to a place that is fit to land on.
 namespace saker::autonomy {
 
 struct PlanningConfig {
@@ -29,6 +30,7 @@ struct PlanningConfig {
   double goal_tolerance_m = 0.3;
   double yaw_tolerance_deg = 8;
   double home_tolerance_m = 2.0;
+  LandingConfig landing;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -42,6 +44,7 @@ struct PlanningConfig {
             "what is committed ends at the goal: SLAM moves it by centimetres");
     v.field("yaw_tolerance_deg", yaw_tolerance_deg, {0.5, 180}, "°", "the same for heading");
     v.field("home_tolerance_m", home_tolerance_m, {0.1, 20}, "m", "near enough to land");
+    v.group("landing", landing, "where it comes down");
   }
 };
 
@@ -84,6 +87,9 @@ class Planning {
 
   void tour(const PlanningInput& input, const core::Budget& budget, Output& output);
   void home(const PlanningInput& input, const core::Budget& budget, Output& output);
+  void land(const PlanningInput& input, const core::Budget& budget, Output& output);
+  void look(const PlanningInput& input, PlanningReport& report) const;
+  [[nodiscard]] LandingPlaces places(const PlanningInput& input) const;
   [[nodiscard]] Way way_to(const Goal& goal, const PlanningInput& input, const core::Budget& budget,
                            Output& output);
   [[nodiscard]] std::optional<Way> turn_to(const Goal& goal, const PlanningInput& input,

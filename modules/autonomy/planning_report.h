@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "saker/autonomy/landing_place.h"
+#include "saker/autonomy/takeoff_column.h"
 #include "saker/core/text.h"
 #include "saker/core/time.h"
 
@@ -11,11 +13,12 @@ namespace saker::autonomy {
 enum class PlanningOrder {
   none,  ///< nothing: on the ground, hold, landing
   tour,  ///< to the next viewpoint of the policy
-  home   ///< to above the place of take-off
+  home,  ///< to above the place of take-off
+  land   ///< to above the nearest place that is fit to land on
 };
 
 [[nodiscard]] inline const char* to_string(PlanningOrder order) {
-  constexpr const char* kNames[] = {"none", "tour", "home"};
+  constexpr const char* kNames[] = {"none", "tour", "home", "land"};
   return kNames[static_cast<int>(order)];
 }
 
@@ -28,12 +31,13 @@ enum class PlanningStatus {
   nothing_reachable,  ///< no target is left, and of those that there are none was visited
   home_reached,
   home_unreachable,  ///< too many refusals on the way home
+  no_place,          ///< nothing within reach is fit to land on
 };
 
 [[nodiscard]] inline const char* to_string(PlanningStatus status) {
-  constexpr const char* kNames[] = {"idle",         "flying",          "refused",
-                                    "gave up",      "tour complete",   "nothing reachable",
-                                    "home reached", "home unreachable"};
+  constexpr const char* kNames[] = {"idle",         "flying",           "refused",
+                                    "gave up",      "tour complete",    "nothing reachable",
+                                    "home reached", "home unreachable", "no place"};
   return kNames[static_cast<int>(status)];
 }
 
@@ -47,7 +51,9 @@ struct PlanningReport {
   int targets = 0;  ///< in all
   int visited = 0;
   int unreachable = 0;
-  int refusals = 0;  ///< in a row, at this goal
+  int refusals = 0;      ///< in a row, at this goal
+  TakeoffColumn column;  ///< over the vehicle, where nothing is ordered
+  LandingPlace landing;  ///< below the vehicle, but on the tour
 };
 
 }  // namespace saker::autonomy

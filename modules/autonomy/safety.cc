@@ -1,11 +1,14 @@
 #include "saker/autonomy/safety.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace saker::autonomy {
 namespace {
 
 constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
+constexpr double kContactHolds_s = 1;      // longer than safety is ever late
+constexpr double kDescent_mps = 0.5;       // slower than autopilots land
 constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
 
 /// "no scan for 0.7 s" or "no scan yet".
@@ -25,7 +28,9 @@ const char* to_string(SafetyAction action) {
 }
 
 Safety::Safety(const SafetyConfig& config, const motion::Geofence& geofence)
-    : config_(core::checked(config, "safety")), geofence_(geofence) {
+    : config_(core::checked(config, "safety")),
+      geofence_(geofence),
+      battery_(config_.battery_flight_s) {
   found_.reserve(32);  // more than there are
 }
 
@@ -47,18 +52,60 @@ void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) co
   listen(Cause::odometry_stale, "pose", in.odometry.stamp, config_.odometry_s);
 }
 
-void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
-  const double charge = in.vehicle.battery_share;
-  if (charge < config_.battery_land_share) {
+/// Of the charge: there in a straight line, and down.
+double Safety::way_home_share(const SafetyInput& in) const {
+  const double down_s = std::abs(in.place.z()) / kDescent_mps;
+  return battery_.drain_per_s() * (in.place.head<2>().norm() / config_.way_home_mps + down_s);
+}
+
+void Safety::find_battery(const SafetyInput& in, std::vector<Finding>& found) const {
+  const double said = in.vehicle.battery_share;
+  const bool known = BatteryWatch::is_known(said);
+  const double unknown_s = battery_.unknown_s(in.now);
+  if (!known && !in.flying) {
+    found.push_back({Cause::battery_unknown, SafetyAction::return_home,
+                     "the charge of the battery is not known"});
+  } else if (!known && unknown_s > config_.battery_unknown_s) {
+    found.push_back({Cause::battery_unknown, SafetyAction::return_home,
+                     core::text("no charge of the battery for {:.0f} s", unknown_s)});
+  }
+  const double charge = known ? said : battery_.share(in.now);
+  if (!BatteryWatch::is_known(charge)) return;
+  const double way_home = way_home_share(in);
+  const double reserve = config_.battery_land_share;
+  const bool enough = charge > way_home + reserve;  // not where the way is not a number
+  const core::Text text = core::text("battery at {:.0f} %", 100 * charge);
+  if (charge < reserve) {
+    found.push_back({Cause::battery_empty, SafetyAction::land, text});
+  } else if (charge <= way_home) {
     found.push_back({Cause::battery_empty, SafetyAction::land,
-                     core::text("battery at {:.0f} %", 100 * charge)});
+                     text + core::text(", the way home takes {:.0f} %", 100 * way_home)});
   } else if (charge < config_.battery_return_share) {
+    found.push_back({Cause::battery_low, SafetyAction::return_home, text});
+  } else if (!enough) {
     found.push_back({Cause::battery_low, SafetyAction::return_home,
-                     core::text("battery at {:.0f} %", 100 * charge)});
+                     text + core::text(", the way home takes {:.0f} % and the reserve {:.0f} %",
+                                       100 * way_home, 100 * reserve)});
   }
+}
+
+/// By the accelerometer in flight, where the flight controller flies: who comes down meets the
+/// ground. A flight controller may have felt one, too.
+void Safety::find_contact(const SafetyInput& in, std::vector<Finding>& found) const {
+  const VehicleMode mode = in.vehicle.mode;
+  const bool lands = mode == VehicleMode::land || mode == VehicleMode::descend;
   if ((in.vehicle.faults & kCollision) != 0) {
-    found.push_back({Cause::collision, SafetyAction::land, "the vehicle has hit something"});
+    found.push_back(
+        {Cause::collision, SafetyAction::land, "the flight controller has felt a contact"});
+  } else if (in.flying && !lands && age_s(in.contact.stamp, in.now) <= kContactHolds_s) {
+    found.push_back({Cause::collision, SafetyAction::land,
+                     core::text("felt a contact, {:.0f} m/s²", in.contact.force_mps2)});
   }
+}
+
+void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) const {
+  find_battery(in, found);
+  find_contact(in, found);
   if (in.vehicle.mode == VehicleMode::descend) {
     const bool rejected = (in.vehicle.faults & kOdometryRejected) != 0;
     found.push_back({Cause::vehicle_descends, SafetyAction::land,
@@ -68,9 +115,14 @@ void Safety::find_vehicle(const SafetyInput& in, std::vector<Finding>& found) co
 }
 
 void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) const {
-  const bool known = in.odometry.status != VehicleOdometryStatus::lost &&
-                     age_s(in.odometry.stamp, in.now) <= config_.odometry_lost_s;
-  if (!known || age_s(in.heard.odometry, in.now) > config_.odometry_lost_s) {
+  const VehicleOdometry& odometry = in.odometry;
+  const double lost_s = config_.odometry_lost_s;
+  const bool known =
+      odometry.status != VehicleOdometryStatus::lost && age_s(odometry.stamp, in.now) <= lost_s;
+  // BodyPose says lost when its covariance grows; one that is not a number says nothing.
+  const bool coasts =
+      odometry.status == VehicleOdometryStatus::predicted && odometry.covariance.allFinite();
+  if (!known || (age_s(in.heard.odometry, in.now) > lost_s && !coasts)) {
     found.push_back(
         {Cause::odometry_lost, SafetyAction::silence,
          silence_text("registered scan", in.heard.odometry, in.now, config_.odometry_lost_s)});
@@ -83,7 +135,7 @@ void Safety::find_place(const SafetyInput& in, std::vector<Finding>& found) cons
   }
   if (in.flying && in.setpoint) {
     const double off = (in.setpoint->position - in.odometry.T_odom_body.translation()).norm();
-    if (off > config_.off_course_m) {
+    if (!(off <= config_.off_course_m)) {
       found.push_back(
           {Cause::off_course, SafetyAction::hold, core::text("{:.1f} m off the setpoint", off)});
     }
@@ -112,6 +164,7 @@ SafetyDecision Safety::worst(std::span<const Finding> findings) {
 }
 
 SafetyDecision Safety::update(const SafetyInput& input) {
+  battery_.update(input.now, input.vehicle.battery_share, input.flying);
   if (!input.flying) {
     held_for_ = {};
     return {};

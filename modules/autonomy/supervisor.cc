@@ -6,6 +6,7 @@
 namespace saker::autonomy {
 namespace {
 
+constexpr double kLooked_s = 4;            // planning looks up every second
 constexpr std::size_t kMostFindings = 32;  // more than there are: room from the first step on
 
 }  // namespace
@@ -23,6 +24,7 @@ SafetyInput Supervisor::safety_input(const SupervisorInput& input) const {
   result.heard = input.heard;
   result.vehicle = input.vehicle;
   result.odometry = input.odometry;
+  result.contact = input.contact;
   result.setpoint = input.setpoint;
   result.flying = mission_.flying() && !mission_.taken_over();
   result.planning_due = planning_since_ != 0;
@@ -44,6 +46,9 @@ std::span<const Finding> Supervisor::on_the_ground(const SupervisorInput& input,
   if ((input.vehicle.faults & kTakenOver) != 0) {
     found.push_back({Cause::taken_over, SafetyAction::none, "somebody else has it: resume"});
   }
+  if (input.planning.column.blocked()) {
+    found.push_back({Cause::takeoff_blocked, SafetyAction::none, input.planning.column.text()});
+  }
   if (!input.has_targets) {
     found.push_back({Cause::no_targets, SafetyAction::none, "no target to map"});
   }
@@ -64,7 +69,8 @@ Mission::Output Supervisor::step(SupervisorInput input) {
   mission.vehicle = input.vehicle;
   mission.odometry = input.odometry;
   mission.acks = std::move(input.acks);
-  mission.planning = std::move(input.planning);
+  mission.looked_up = input.planning.column.state != TakeoffColumn::State::not_looked &&
+                      input.now - input.planning.stamp <= from_seconds(kLooked_s);
   mission.stop = std::move(input.stop);
   mission.plant_heard = std::max(input.heard.vehicle, input.heard.lidar);
   mission.land_ordered = input.land_ordered;
@@ -79,6 +85,7 @@ Mission::Output Supervisor::step(SupervisorInput input) {
     safety_.find(seen, found_);
     mission.findings = found_;
   }
+  mission.planning = std::move(input.planning);  // its column was read
   Mission::Output output = mission_.step(mission);
   if (output.orders.planning == PlanningOrder::none) {
     // While it holds, an answer is still due: a hold for planning that hangs ends in a landing.

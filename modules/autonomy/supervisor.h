@@ -15,6 +15,7 @@ struct SupervisorInput {
   VehicleState vehicle;
   VehicleOdometry odometry;
   SE3 T_world_odom = SE3::Identity();
+  Contact contact;                   ///< the last one that was felt
   std::optional<Setpoint> setpoint;  ///< the one that is flown
   Acks acks;                         ///< since the last step
   PlanningReport planning;           ///< the newest

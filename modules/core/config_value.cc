@@ -52,6 +52,25 @@ bool is_plain(const std::string& text) {
          std::find(kWords.begin(), kWords.end(), lower) == kWords.end();
 }
 
+/// Counts what stands in a document, an alias as all that it stands for: one within itself never
+/// ends. Throws Error where it is more than any file of ours has.
+void refuse_endless(const YAML::Node& node, const std::string& source, int depth, long& nodes) {
+  constexpr int kDeepest = 50;
+  constexpr long kMostNodes = 1'000'000;
+  if (depth > kDeepest || ++nodes > kMostNodes) {
+    throw Error(fmt::format("{}:{}: nested without end, expected at most {} levels", source,
+                            node.Mark().line + 1, kDeepest));
+  }
+  for (const auto& entry : node) {
+    if (node.IsMap()) {
+      refuse_endless(entry.first, source, depth + 1, nodes);
+      refuse_endless(entry.second, source, depth + 1, nodes);
+    } else {
+      refuse_endless(entry, source, depth + 1, nodes);
+    }
+  }
+}
+
 }  // namespace
 
 std::string nearest_key(const std::string& key, const std::vector<std::string>& known) {
@@ -123,7 +142,10 @@ void ConfigPlace::refuse_unknown(const YAML::Node& map,
 
 YAML::Node parse_yaml(const std::string& text, const std::string& source) {
   try {
-    return YAML::Load(text);
+    YAML::Node root = YAML::Load(text);
+    long nodes = 0;
+    refuse_endless(root, source, 0, nodes);
+    return root;
   } catch (const YAML::Exception& error) {
     throw Error(fmt::format("{}:{}: not YAML: {}", source, error.mark.line + 1, error.msg));
   }
@@ -177,8 +199,10 @@ std::string value_text(const std::string& value) {
   if (is_plain(value)) return value;
   std::string quoted = "\"";
   for (const char c : value) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool control = byte < ' ' || byte == 0x7F;
     if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c == '\n' ? "\\n" : std::string(1, c);
+    quoted += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
   }
   return quoted + '"';
 }

@@ -62,7 +62,15 @@ bool read(ByteReader& in, Record& record) {
   record.from = body.varint();
   record.bytes = body.text();
   return body.done() && kind < kStreamKinds && is_name(record.id.robot) &&
-         record.chunk < kMostChunks && record.from + record.bytes.size() <= kChunkBytes;
+         record.chunk < kMostChunks && record.from <= kChunkBytes && !record.bytes.empty() &&
+         record.from + record.bytes.size() <= kChunkBytes;
+}
+
+/// Whether its bytes begin where those before it end.
+bool follows(const Record& record, const Store& store) {
+  const auto known = store.extents().find(record.id);
+  const auto chunk = static_cast<int>(record.chunk);
+  return record.from == (known == store.extents().end() ? 0 : known->second.bytes_of(chunk));
 }
 
 }  // namespace
@@ -89,7 +97,7 @@ JournalStore::~JournalStore() { ::close(file_); }
 void JournalStore::read_back(const std::string& journal) {
   ByteReader in(std::string_view(journal).substr(kMagic.size()));
   Record record;
-  while (in.rest() > 0 && read(in, record)) {
+  while (in.rest() > 0 && read(in, record) && follows(record, *this)) {
     (void)MemoryStore::keep(record.id, static_cast<int>(record.chunk), record.from, record.bytes);
     restore(record.id, static_cast<int>(record.chunk), record.from + record.bytes.size());
     size_ = kMagic.size() + in.at();

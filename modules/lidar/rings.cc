@@ -18,10 +18,16 @@ constexpr float kThinRing = 0.012F;  // rad, median spread of a ring's elevation
 struct Angles {
   std::vector<std::int32_t> index;  // of the finite points
   std::vector<float> azimuth, elevation;
+
+  explicit Angles(std::size_t points) {
+    index.reserve(points);
+    azimuth.reserve(points);
+    elevation.reserve(points);
+  }
 };
 
 Angles angles_of(const std::vector<Eigen::Vector3f>& points) {
-  Angles angles;
+  Angles angles(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f& p = points[i];
     const float range = p.norm();
@@ -33,7 +39,12 @@ Angles angles_of(const std::vector<Eigen::Vector3f>& points) {
   return angles;
 }
 
-float wrapped(float angle) { return angle - 2 * kPi * std::round(angle / (2 * kPi)); }
+/// Most angles are within half a turn already; rounding costs more than all the rest.
+float wrapped(float angle) {
+  constexpr float kHalfTurn = 3.14F;
+  if (std::abs(angle) < kHalfTurn) return angle;
+  return angle - 2 * kPi * std::round(angle / (2 * kPi));
+}
 
 /// +1 where the azimuth mostly rises from point to point, −1 where it falls.
 float direction_of(const std::vector<float>& azimuth) {
@@ -55,9 +66,10 @@ std::vector<int> unfold(const std::vector<float>& azimuth) {
   int number = 0;
   for (std::size_t i = 1; i < azimuth.size(); ++i) {
     const float step = direction * wrapped(azimuth[i] - azimuth[i - 1]);
-    const bool passed = direction * wrapped(azimuth[i - 1] - begin) < 0 &&
-                        direction * wrapped(azimuth[i] - begin) >= 0 && step > 0 && step < kPi;
-    if (step < -kJumpBack || (passed && swept > kPi)) {
+    const bool passed = swept > kPi && step > 0 && step < kPi &&
+                        direction * wrapped(azimuth[i - 1] - begin) < 0 &&
+                        direction * wrapped(azimuth[i] - begin) >= 0;
+    if (step < -kJumpBack || passed) {
       ++number;
       swept = 0;
     } else {
@@ -68,7 +80,8 @@ std::vector<int> unfold(const std::vector<float>& azimuth) {
   return ring;
 }
 
-float median(std::vector<float> values) {
+/// Reorders the values; 0 where there are none.
+float take_median(std::vector<float>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -78,46 +91,52 @@ float median(std::vector<float> values) {
 std::vector<std::vector<float>> elevations_by_ring(const Angles& angles,
                                                    const std::vector<int>& ring) {
   std::vector<std::vector<float>> by_ring(static_cast<std::size_t>(ring.back()) + 1);
+  std::vector<std::size_t> counts(by_ring.size(), 0);
+  for (const int r : ring) ++counts[r];
+  for (std::size_t r = 0; r < counts.size(); ++r) by_ring[r].reserve(counts[r]);
   for (std::size_t i = 0; i < ring.size(); ++i) by_ring[ring[i]].push_back(angles.elevation[i]);
   return by_ring;
 }
 
+/// Median elevation of each ring, whose elevations are reordered.
+std::vector<float> centres_of(std::vector<std::vector<float>>& by_ring) {
+  std::vector<float> centre;
+  for (std::vector<float>& elevation : by_ring) centre.push_back(take_median(elevation));
+  return centre;
+}
+
 /// A beam's points share an elevation, but for calibration, motion and a sensor that is tilted.
-bool thin(const std::vector<std::vector<float>>& by_ring) {
-  std::vector<float> spread;
-  for (const std::vector<float>& elevation : by_ring) {
-    const float centre = median(elevation);
-    std::vector<float> away;
-    for (const float e : elevation) away.push_back(std::abs(e - centre));
-    spread.push_back(median(away));
+bool thin(const std::vector<std::vector<float>>& by_ring, const std::vector<float>& centre) {
+  std::vector<float> spread, away;
+  for (std::size_t k = 0; k < by_ring.size(); ++k) {
+    away.clear();
+    for (const float e : by_ring[k]) away.push_back(std::abs(e - centre[k]));
+    spread.push_back(take_median(away));
   }
-  return median(spread) < kThinRing;
+  return take_median(spread) < kThinRing;
 }
 
 /// Whether the file goes from the lowest beam up. Only the whole is asked: where the sensor is
 /// tilted, a ring's own median says little.
-bool rises(const std::vector<std::vector<float>>& by_ring) {
+bool rises(const std::vector<float>& centre) {
   std::ptrdiff_t up = 0;
-  for (std::size_t k = 1; k < by_ring.size(); ++k) {
-    up += median(by_ring[k]) > median(by_ring[k - 1]) ? 1 : -1;
-  }
+  for (std::size_t k = 1; k < centre.size(); ++k) up += centre[k] > centre[k - 1] ? 1 : -1;
   return up > 0;
 }
 
 /// Median over neighbours in the order of the file; jumps are few.
 float azimuth_step(const std::vector<float>& azimuth) {
   std::vector<float> steps;
+  steps.reserve(azimuth.size());
   for (std::size_t i = 1; i < azimuth.size(); ++i) {
     steps.push_back(std::abs(wrapped(azimuth[i] - azimuth[i - 1])));
   }
-  return median(std::move(steps));
+  return take_median(steps);
 }
 
 /// Numbers the rings from the highest down, `ring` being consecutive from 0 in any order.
-std::vector<std::int32_t> by_height(const std::vector<std::vector<float>>& by_ring) {
-  std::vector<float> centre;
-  for (const std::vector<float>& elevation : by_ring) centre.push_back(median(elevation));
-  std::vector<std::int32_t> order(by_ring.size()), number(by_ring.size());
+std::vector<std::int32_t> by_height(const std::vector<float>& centre) {
+  std::vector<std::int32_t> order(centre.size()), number(centre.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::int32_t a, std::int32_t b) { return centre[a] > centre[b]; });
@@ -136,8 +155,9 @@ bool take_given(const Angles& angles, const std::vector<std::uint16_t>& given, R
   }
   std::vector<std::vector<float>> elevations(count);
   for (std::size_t i = 0; i < ring.size(); ++i) elevations[ring[i]].push_back(angles.elevation[i]);
-  if (count < kMinRings || !thin(elevations)) return false;
-  const std::vector<std::int32_t> number = by_height(elevations);
+  const std::vector<float> centre = centres_of(elevations);
+  if (count < kMinRings || !thin(elevations, centre)) return false;
+  const std::vector<std::int32_t> number = by_height(centre);
   for (std::size_t i = 0; i < ring.size(); ++i) rings.of_point[angles.index[i]] = number[ring[i]];
   rings.count = count;
   rings.source = RingSource::given;
@@ -147,12 +167,14 @@ bool take_given(const Angles& angles, const std::vector<std::uint16_t>& given, R
 
 bool take_order(const Angles& angles, Rings& rings) {
   const std::vector<int> ring = unfold(angles.azimuth);
-  const auto by_ring = elevations_by_ring(angles, ring);
-  if (by_ring.size() < kMinRings || by_ring.size() > kMaxRings || !thin(by_ring)) return false;
+  auto by_ring = elevations_by_ring(angles, ring);
+  if (by_ring.size() < kMinRings || by_ring.size() > kMaxRings) return false;
+  const std::vector<float> centre = centres_of(by_ring);
+  if (!thin(by_ring, centre)) return false;
   rings.count = static_cast<int>(by_ring.size());
   rings.source = RingSource::order;
   rings.azimuth_step = azimuth_step(angles.azimuth);
-  const bool upside_down = rises(by_ring);
+  const bool upside_down = rises(centre);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     rings.of_point[angles.index[i]] = upside_down ? rings.count - 1 - ring[i] : ring[i];
   }
@@ -177,8 +199,11 @@ Rings recover_rings(const std::vector<Eigen::Vector3f>& points,
                     const std::vector<std::uint16_t>& given) {
   Rings rings;
   rings.of_point.assign(points.size(), -1);
+  rings.azimuth.assign(points.size(), 0);
   const Angles angles = angles_of(points);
   if (angles.index.empty()) return rings;
+  for (std::size_t i = 0; i < angles.index.size(); ++i)
+    rings.azimuth[angles.index[i]] = angles.azimuth[i];
   if (given.size() == points.size() && take_given(angles, given, rings)) return rings;
   if (!take_order(angles, rings)) take_bands(angles, rings);
   return rings;

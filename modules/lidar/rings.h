@@ -19,6 +19,7 @@ struct Rings {
   int count = 1;                       ///< at least 1, at most kMaxRings
   float azimuth_step = 0;              ///< rad between neighbours in a ring; 0: unknown
   std::vector<std::int32_t> of_point;  ///< 0 the highest; −1 for a point that is not finite
+  std::vector<float> azimuth;          ///< rad, of each point; 0 for one that is not finite
   RingSource source = RingSource::none;
 };
 

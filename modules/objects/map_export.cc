@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "saker/core/colour.h"
 #include "saker/objects/object_numbers.h"
 
 namespace saker::objects {
@@ -87,11 +86,6 @@ std::string properties(const Cylinder& cylinder, const TangentPlane&) {
                      cylinder.radius, cylinder.height);
 }
 
-core::Colour colour_of(const ObjectClass& object_class) {
-  if (object_class.shape == Shape::cuboid) return core::colours::kBlue;
-  return object_class.crowned ? core::colours::kGreen : core::colours::kOrange;
-}
-
 /// Vertices and faces as PLY has them.
 class Mesh {
  public:
@@ -161,6 +155,11 @@ class Mesh {
 };
 
 }  // namespace
+
+core::Colour colour_of(const ObjectClass& object_class) {
+  if (object_class.shape == Shape::cuboid) return core::colours::kBlue;
+  return object_class.crowned ? core::colours::kGreen : core::colours::kOrange;
+}
 
 std::string to_csv(const ObjectMap& map, const ClassTable& table) {
   std::string text =

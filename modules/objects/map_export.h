@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "saker/core/colour.h"
 #include "saker/objects/class_table.h"
 #include "saker/objects/geodesy.h"
 #include "saker/objects/object_map.h"
@@ -23,5 +24,8 @@ namespace saker::objects {
 
 /// A mesh for viewers, binary: cuboids and cylinders, coloured by class.
 [[nodiscard]] std::string to_ply(const ObjectMap& map, const ClassTable& table);
+
+/// What these forms and KML draw a class in.
+[[nodiscard]] core::Colour colour_of(const ObjectClass& object_class);
 
 }  // namespace saker::objects

@@ -9,6 +9,7 @@
 #include "saker/core/files.h"
 #include "saker/objects/map_document.h"
 #include "saker/objects/map_export.h"
+#include "saker/objects/map_kml.h"
 
 namespace saker::objects {
 namespace {
@@ -119,15 +120,15 @@ void write_map(const std::filesystem::path& file, const ObjectMap& map, const Cl
   if (ending == ".smap") return core::write_file(file, to_smap(map, table, format.content));
   if (ending == ".csv") return core::write_file(file, to_csv(map, table));
   if (ending == ".ply") return core::write_file(file, to_ply(map, table));
-  if (ending == ".geojson" && format.origin) {
-    return core::write_file(file, to_geojson(map, table, *format.origin));
-  }
-  if (ending == ".geojson") {
+  const bool on_earth = ending == ".geojson" || ending == ".kml";
+  if (on_earth && !format.origin) {
     throw Error(
         fmt::format("cannot write {}: needs the map's origin (--origin LAT,LON)", file.string()));
   }
+  if (ending == ".geojson") return core::write_file(file, to_geojson(map, table, *format.origin));
+  if (ending == ".kml") return core::write_file(file, to_kml(map, table, *format.origin));
   throw Error(fmt::format(
-      "cannot write {}: expected a name that ends in .csv, .geojson, .ply, .json or .smap",
+      "cannot write {}: expected a name that ends in .csv, .geojson, .kml, .ply, .json or .smap",
       file.string()));
 }
 

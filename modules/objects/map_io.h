@@ -55,11 +55,11 @@ struct SmapLayout {
 
 struct MapFormat {
   SmapContent content = SmapContent::everything;  ///< of a `.smap`
-  std::optional<GeoOrigin> origin;                ///< of a `.geojson`, which needs one
+  std::optional<GeoOrigin> origin;                ///< of `.geojson` and `.kml`
 };
 
-/// The form follows the ending: `.json`, `.smap` and, for other programs, `.csv`, `.geojson` and
-/// `.ply` (map_export.h).
+/// The form follows the ending: `.json`, `.smap` and, for other programs, `.csv`, `.geojson`,
+/// `.ply` (map_export.h) and `.kml` (map_kml.h).
 void write_map(const std::filesystem::path& file, const ObjectMap& map, const ClassTable& table,
                const MapFormat& format = {});
 

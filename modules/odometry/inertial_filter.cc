@@ -1,6 +1,7 @@
 #include "saker/odometry/inertial_filter.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace saker::odometry {
@@ -10,6 +11,8 @@ const Eigen::Vector3d kGravity(0, 0, -9.80665);  // m/s²
 
 // Rows of the error state.
 constexpr int kRotation = 0, kPlace = 3, kVelocity = 6, kRateBias = 9, kAccelerationBias = 12;
+
+constexpr double kMostDoubt = 100;  // of variances: ten times the sd
 
 Eigen::Matrix3d isotropic(double sd) { return sd * sd * Eigen::Matrix3d::Identity(); }
 
@@ -154,6 +157,23 @@ void InertialFilter::condition(const SE3& T_odom_lidar, const Matrix6d& covarian
   T_odom_lidar_ = T_odom_lidar;
   const Matrix15d sum = covariance_ + G * (covariance - pose_covariance()) * G.transpose();
   covariance_ = 0.5 * (sum + sum.transpose());
+}
+
+InertialFilter::Surprise InertialFilter::surprise(const SE3& T_odom_lidar,
+                                                  const Matrix6d& noise) const {
+  const Eigen::Matrix3d expected = (pose_covariance() + noise).bottomRightCorner<3, 3>();
+  Surprise found;
+  found.off = core::se3_log(T_odom_lidar_.inverse() * T_odom_lidar).tail<3>();
+  found.square = found.off.dot(expected.ldlt().solve(found.off));
+  return found;
+}
+
+/// Zhou and Frank 1996, their one factor: what was seen, less the measurement's error, by what the
+/// state allows for.
+void InertialFilter::doubt(const Surprise& surprise, const Matrix6d& noise) {
+  const double seen = surprise.off.squaredNorm() - noise.bottomRightCorner<3, 3>().trace();
+  const double allowed = pose_covariance().bottomRightCorner<3, 3>().trace();
+  if (seen > allowed && allowed > 0) covariance_ *= std::min(seen / allowed, kMostDoubt);
 }
 
 void InertialFilter::correct(const SE3& T_odom_lidar, const Matrix6d& noise) {

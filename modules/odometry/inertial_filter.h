@@ -47,6 +47,11 @@ struct InertialConfig {
 /// Where the lidar is by its inertial unit, and how well that is known: strapdown integration from
 /// one known pose to the next, with the biases as part of the state.
 ///
+/// Where measurements keep lying off by more than they and the state allow for, the model is wrong
+/// (a bias that stepped): `doubt` gives all that is known up by the factor that explains them,
+/// after Zhou and Frank, "Strong tracking filtering of nonlinear time-varying stochastic systems
+/// with coloured noise", Int. J. Control 65(2), 1996.
+///
 /// Frames: `odom`, z up; errors are right ones in the lidar frame: [rotation, translation,
 /// velocity, bias of the gyroscope, bias of the accelerometer]. Method: error-state Kalman filter,
 /// Solà, "Quaternion kinematics for the error-state Kalman filter" (2017), sec. 5; a reading is
@@ -69,6 +74,17 @@ class InertialFilter {
   /// The pose turned out to be this, N(pose, covariance), the prior included: velocity and biases
   /// follow by what they share with it.
   void condition(const SE3& T_odom_lidar, const Matrix6d& covariance);
+  /// How far a measured place is off, m in the lidar frame, and the square of that in its sd: 3 on
+  /// average where state and measurement err as they say.
+  struct Surprise {
+    Eigen::Vector3d off = Eigen::Vector3d::Zero();
+    double square = 0;
+  };
+  [[nodiscard]] Surprise surprise(const SE3& T_odom_lidar, const Matrix6d& noise) const;
+  /// All is known less well, by the factor (of variances, at most 100) with which that place was to
+  /// be expected.
+  void doubt(const Surprise& surprise, const Matrix6d& noise);
+
   /// The pose was measured with this error.
   void correct(const SE3& T_odom_lidar, const Matrix6d& noise);
   /// `odom` jumped: the body's velocity and the biases did not.

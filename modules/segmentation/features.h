@@ -38,6 +38,9 @@ class Features {
   /// channel × row × column. Cost: 5 ms for 64×1024.
   const std::vector<float>& compute(const RangeImage& image);
 
+  /// Unit, lidar frame, as found in the last image.
+  [[nodiscard]] const Eigen::Vector3f& up() const { return ground_.up(); }
+
  private:
   BeamSpacing spacing_;
   RangeImage smooth_;

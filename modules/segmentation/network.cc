@@ -80,7 +80,7 @@ void Network::pad(const std::vector<float>& features, int rows, int columns) {
   }
 }
 
-const PixelProbabilities& Network::run(const std::vector<float>& features, int rows, int columns) {
+PixelProbabilities& Network::run(const std::vector<float>& features, int rows, int columns) {
   pad(features, rows, columns);
   memory_->net.setInput(memory_->input);
   memory_->output = memory_->net.forward();

@@ -28,8 +28,9 @@ class Network {
   Network(Network&&) noexcept;
   Network& operator=(Network&&) noexcept;
 
-  /// `features`: channel × row × column.
-  const PixelProbabilities& run(const std::vector<float>& features, int rows, int columns);
+  /// `features`: channel × row × column. The result is kept here until the next run; the caller may
+  /// change it.
+  PixelProbabilities& run(const std::vector<float>& features, int rows, int columns);
 
  private:
   struct Memory;

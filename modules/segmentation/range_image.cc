@@ -53,8 +53,8 @@ void project_organised(const lidar::Scan& scan, RangeImage& image) {
   }
 }
 
-int column_of(const Eigen::Vector3f& p, int columns) {
-  const float turn = 0.5F - std::atan2(p.y(), p.x()) * static_cast<float>(0.5 / std::numbers::pi);
+int column_of(float azimuth, int columns) {
+  const float turn = 0.5F - azimuth * static_cast<float>(0.5 / std::numbers::pi);
   return std::clamp(static_cast<int>(turn * static_cast<float>(columns)), 0, columns - 1);
 }
 
@@ -65,7 +65,7 @@ void project_unorganised(const lidar::Scan& scan, RangeImage& image) {
   clear(image, ((rings.count - 1) >> shift) + 1, columns, scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (rings.of_point[i] < 0) continue;
-    place(image, scan, i, rings.of_point[i] >> shift, column_of(scan.points[i], columns));
+    place(image, scan, i, rings.of_point[i] >> shift, column_of(rings.azimuth[i], columns));
   }
 }
 

@@ -33,7 +33,8 @@ Segmentation::Segmentation(const SegmentationConfig& config, const objects::Clas
                            const Eigen::Vector3f& up)
     : config_(core::checked(config, "segmentation")),
       network_(load(config_, table)),
-      features_(up) {}
+      features_(up),
+      cylinder_pieces_(table) {}
 
 /// The scan itself where its frame is the sensor's, else a copy in that.
 const lidar::Scan& Segmentation::in_sensor_frame(const lidar::Scan& scan) {
@@ -49,8 +50,8 @@ lidar::Labels Segmentation::segment(const lidar::Scan& given) {
   project(scan, image_);
   if (image_.size() == 0)
     return {std::vector<std::uint8_t>(scan.size(), 0), std::vector<float>(scan.size(), 0.0F)};
-  const PixelProbabilities& pixels =
-      network_.run(features_.compute(image_), image_.rows, image_.columns);
+  PixelProbabilities& pixels = network_.run(features_.compute(image_), image_.rows, image_.columns);
+  cylinder_pieces_.decide(image_, features_.up(), pixels);
   return back_projection_.label(scan, image_, pixels);
 }
 

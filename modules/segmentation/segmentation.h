@@ -6,6 +6,7 @@
 #include "saker/lidar/scan.h"
 #include "saker/objects/class_table.h"
 #include "saker/segmentation/back_projection.h"
+#include "saker/segmentation/cylinder_pieces.h"
 #include "saker/segmentation/features.h"
 #include "saker/segmentation/network.h"
 #include "saker/segmentation/range_image.h"
@@ -30,9 +31,9 @@ struct SegmentationConfig {
 /// is said to be, so a tilted sensor at any height will do. Method: range image (range_image.h),
 /// geometry per pixel (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut
 /// down, as the paper's sec. IV-A does (network.h; trained by tools/training on simulated scans
-/// only), back to the points (back_projection.h). A scan without finite points is all `other` with
-/// probability 0. Cost: docs/real.md. One thread, one instance a thread; the same scan gives the
-/// same bytes.
+/// only), one decision for the pixels of an object (cylinder_pieces.h), back
+/// to the points (back_projection.h). A scan without finite points is all `other` with probability
+/// 0. Cost: docs/real.md. One thread, one instance a thread; the same scan gives the same bytes.
 class Segmentation {
  public:
   /// Throws Error: a missing or wrong model, or a description that does not fit the class table.
@@ -51,6 +52,7 @@ class Segmentation {
   lidar::Scan moved_;
   RangeImage image_;
   Features features_;
+  CylinderPieces cylinder_pieces_;
   BackProjection back_projection_;
 };
 

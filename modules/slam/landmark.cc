@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "saker/objects/stated_length.h"
+#include "saker/slam/landmark_evidence.h"
 
 namespace saker::slam {
 namespace {
@@ -282,11 +283,9 @@ objects::ClassId class_of(const Landmark& landmark, const objects::ClassTable& t
 }
 
 bool stands(const Landmark& landmark, const LandmarkConfig& config) {
-  if (landmark.moving || landmark.seen < config.confirm_observations) return false;
+  if (is_mobile(landmark) || landmark.seen < config.confirm_observations) return false;
   if (to_seconds(landmark.last_stamp - landmark.first_stamp) < config.confirm_span_s) return false;
-  if (2 * landmark.seen_moving > landmark.seen) return false;
-  const double log_odds = landmark.log_odds - config.missed_log_odds * landmark.missed;
-  return log_odds >= config.least_log_odds;
+  return log_odds(landmark, config) >= config.least_log_odds;
 }
 
 const SeenEnds& seen_ends(const Landmark& landmark) {

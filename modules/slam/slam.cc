@@ -4,6 +4,7 @@
 
 #include "saker/objects/stated_length.h"
 #include "saker/slam/landmark_estimate.h"
+#include "saker/slam/landmark_evidence.h"
 #include "saker/slam/sight.h"
 
 namespace saker::slam {
@@ -285,9 +286,8 @@ objects::ObjectMap Slam::map_with(
 std::vector<objects::MapObject> Slam::tentative() const {
   std::vector<objects::MapObject> objects;
   for (const Landmark& landmark : landmarks_) {
-    const double log_odds = landmark.log_odds - config_.landmarks.missed_log_odds * landmark.missed;
-    const bool moves = landmark.moving || 2 * landmark.seen_moving > landmark.seen;
-    if (moves || log_odds <= 0 || believed(landmark, config_.landmarks)) continue;
+    if (is_mobile(landmark) || log_odds(landmark, config_.landmarks) <= 0) continue;
+    if (believed(landmark, config_.landmarks)) continue;
     objects.push_back(map_object(landmark, table_));
     objects.back().observations = landmark.seen;
   }

@@ -17,8 +17,10 @@ constexpr double kLongEnough_s = 3;
 constexpr double kRecovers_s = 4;     // safety.recover_s, and a moment
 constexpr double kFliesAgain_s = 12;  // replanned, sped up
 constexpr double kGap_s = 0.55;       // longer than safety.lidar_s
-constexpr double kReference_s = 30;   // of the flight without a fault
-constexpr double kInTheWay_m = 0.5;   // from a wall's middle: well within its width
+constexpr double kBlow_s = 0.06;      // 0.9 m/s are lost
+constexpr double kMission_s = 200;
+constexpr double kReference_s = 30;  // of the flight without a fault
+constexpr double kInTheWay_m = 0.5;  // from a wall's middle: well within its width
 
 /// As soon as it flies fast.
 std::vector<ScenarioEvent> on_the_way(ScenarioEventKind kind) {
@@ -143,6 +145,37 @@ TEST(Fault, WithOdometryThatStopsItLands) {
   EXPECT_LE(flight.settled_after(), kSettled_s);
   EXPECT_LE(flight.said_after(Cause::vehicle_descends), kSettled_s);
   EXPECT_EQ(flight.collisions(), 0);
+}
+
+// Hazard: Surroundings | it touches something | lands where it is (`collision`) | 2
+TEST(Fault, AContactThatItsAccelerometerFeelsLandsIt) {
+  FaultyFlight flight;
+  ASSERT_TRUE(flight.fly_fast_into(
+      [&] {
+        flight.plant.blow_mps2 = {-15, 0, 0};
+      },
+      kBlow_s, [&] { flight.plant.blow_mps2.setZero(); }));
+  flight.go_on(kLongEnough_s);
+  EXPECT_LE(flight.settled_after(), kSettled_s);
+  EXPECT_LE(flight.said_after(Cause::collision), 0.2);
+  EXPECT_EQ(flight.result().phase, MissionPhase::landing);
+}
+
+/// Twice the wind that it is made for, and home.
+TEST(Fault, GustsAndTheTouchDownAreNoContact) {
+  std::vector<ScenarioEvent> gusts;
+  for (const double towards_deg : {0.0, 120.0, 240.0}) {
+    ScenarioEvent gust;
+    gust.kind = ScenarioEventKind::gust;
+    gust.at_s = 6 + towards_deg / 60;
+    gust.towards_deg = towards_deg;
+    gusts.push_back(gust);
+  }
+  FaultyFlight flight(gusts);
+  ASSERT_TRUE(flight.fly_into_event());
+  flight.go_on(kMission_s);
+  EXPECT_EQ(flight.result().phase, MissionPhase::done);
+  EXPECT_TRUE(std::isnan(flight.said_after(Cause::collision)));
 }
 
 // Hazard: Surroundings | a wall stands in the way from one moment to the next | stops before it | 2

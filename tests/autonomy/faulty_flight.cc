@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "saker/lidar/imu_packet.h"
+#include "saker/lidar/packet.h"
 
 namespace saker::autonomy {
 namespace {
@@ -62,7 +63,32 @@ std::vector<SensorPacket> RecordedPlant::take_packets() {
       return packet.payload.size() != lidar::kImuPacketBytes;
     });
   }
+  if (link == Link::covered) {
+    for (SensorPacket& packet : packets) cover(packet);
+  }
+  if (!blow_mps2.isZero()) {
+    for (SensorPacket& packet : packets) add_blow(packet);
+  }
   return packets;
+}
+
+void RecordedPlant::cover(SensorPacket& packet) const {
+  const lidar::PacketFormat format(vehicle_.sensor());
+  if (packet.payload.size() != format.packet_bytes()) return;
+  std::vector<lidar::Column> columns;
+  for (int i = 0; i < format.columns_per_packet(); ++i) {
+    columns.push_back(format.column(packet.payload, i));
+    std::ranges::fill(columns.back().pixels, lidar::Pixel{});
+  }
+  packet.payload = format.encode(columns);
+}
+
+void RecordedPlant::add_blow(SensorPacket& packet) const {
+  if (packet.payload.size() != lidar::kImuPacketBytes) return;
+  for (lidar::ImuSample sample : lidar::decode_imu(packet.payload, vehicle_.sensor())) {
+    sample.acceleration += blow_mps2;
+    packet.payload = lidar::encode_imu(sample, vehicle_.sensor());
+  }
 }
 
 std::optional<VehicleState> RecordedPlant::take_state() {

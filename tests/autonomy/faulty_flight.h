@@ -15,9 +15,10 @@ class RecordedPlant : public SteppedPlant {
  public:
   enum class Link {
     up,
-    deaf,   ///< nothing reaches the vehicle: the executive has died
-    blind,  ///< no scans come from it, all else does
-    gone    ///< nothing comes from it either: the plant has died
+    deaf,     ///< nothing reaches the vehicle: the executive has died
+    blind,    ///< no scans come from it, all else does
+    covered,  ///< its scans have no returns
+    gone      ///< nothing comes from it either: the plant has died
   };
   struct Row {
     simulation::VehicleTruth truth;
@@ -38,11 +39,14 @@ class RecordedPlant : public SteppedPlant {
   void send(const Command& command) override;
 
   Link link = Link::up;
+  Eigen::Vector3d blow_mps2 = Eigen::Vector3d::Zero();  ///< lidar: added to what its IMU feels
   std::vector<Row> rows;
   std::function<void(const simulation::VehicleTruth&)> watch;  ///< at every step
 
  private:
-  [[nodiscard]] bool hears() const { return link == Link::up || link == Link::blind; }
+  void cover(SensorPacket& packet) const;
+  void add_blow(SensorPacket& packet) const;
+  [[nodiscard]] bool hears() const { return link != Link::deaf && link != Link::gone; }
 
   simulation::SimulatedVehicle& vehicle_;
   tools::SimulatedPlant plant_;

@@ -76,6 +76,14 @@ double KinematicFlight::run(double limit_s) {
   return to_seconds(now_ - begin);
 }
 
+bool KinematicFlight::run_to(MissionPhase phase, double limit_s) {
+  for (const Time end = now_ + from_seconds(limit_s); now_ < end && mission().phase() != phase;) {
+    now_ += kStep;
+    step();
+  }
+  return mission().phase() == phase;
+}
+
 void KinematicFlight::step() {
   vehicle_.stamp = odometry_.stamp = now_;
   odometry_.status = VehicleOdometryStatus::ok;

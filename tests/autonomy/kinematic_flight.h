@@ -19,6 +19,12 @@ class KinematicFlight {
   /// Until it is done, or so many seconds; what it takes.
   double run(double limit_s);
 
+  /// The same until it is in this phase.
+  bool run_to(MissionPhase phase, double limit_s);
+  /// What is seen from now on.
+  void see(std::shared_ptr<const occupancy::OccupancyGrid> grid) { grid_ = std::move(grid); }
+  [[nodiscard]] Eigen::Vector3d place() const { return odometry_.T_odom_body.translation(); }
+
   [[nodiscard]] const Mission& mission() const { return supervisor_.mission(); }
   [[nodiscard]] const std::vector<active::Target>& targets() const {
     return planning_.active().targets();

@@ -34,6 +34,10 @@ class MissionTest : public testing::Test {
     input.findings = findings;
     input.safety = safety;
     input.planning = planning;
+    input.planning.stamp = now;
+    input.planning.landing = {ground, NAN, input.odometry.T_odom_body.translation()};
+    input.odometry.velocity.setZero();
+    input.looked_up = looked_up;
     input.stop = stop;
     if (!plant_gone) plant_heard = now;
     input.plant_heard = plant_heard;
@@ -83,6 +87,8 @@ class MissionTest : public testing::Test {
   SafetyDecision safety;
   PlanningReport planning;
   GuidanceStop stop;
+  Ground ground = Ground::fit;
+  bool looked_up = true;
   bool plant_gone = false;
   Time plant_heard = 0;
   MissionOrders orders;
@@ -150,6 +156,15 @@ TEST_F(MissionTest, AFlightThatCannotBeMarkedIsNone) {
   EXPECT_TRUE(commands.empty());
   EXPECT_EQ(mission.outcome(), Cause::preflight_deadline);
   EXPECT_EQ(events.back().text, "no take-off: the flight could not be marked");
+}
+
+// Hazard: Surroundings | the column over the take-off place is occupied, or neither seen nor stated
+//   free | it does not take off (`takeoff_blocked`) | –
+TEST_F(MissionTest, DoesNotArmBeforeSomebodyLookedUp) {
+  looked_up = false;
+  ASSERT_TRUE(fly_to(MissionPhase::done, config.preflight_s + 1));
+  EXPECT_TRUE(commands.empty());
+  EXPECT_EQ(events.back().text, "no take-off: nobody has looked at the column above");
 }
 
 TEST_F(MissionTest, WaitsUntilNothingHasBeenMissingForAWhile) {

@@ -48,7 +48,11 @@ class Orders : public testing::Test {
     input.odometry.status = VehicleOdometryStatus::ok;
     input.odometry.T_odom_body.translation() = Eigen::Vector3d(0, 0, height);
     input.acks = std::exchange(acks, {});
+    input.odometry.velocity = Eigen::Vector3d(speed, 0, 0);
     input.planning = planning;
+    input.planning.stamp = now;
+    input.planning.column.state = TakeoffColumn::State::free;
+    input.planning.landing = {ground, value, input.odometry.T_odom_body.translation()};
     input.has_targets = true;
     input.classified_share = 0.6;
     input.land_ordered = land_ordered;
@@ -115,7 +119,9 @@ class Orders : public testing::Test {
   bool armed = false, taken_over = false, checker_lives = true, land_ordered = false;
   bool gives_back = true, answers = true, obeys_setpoints = true;
   VehicleMode mode = VehicleMode::idle;
-  double height = 0, battery = 0.9;
+  double height = 0, battery = 0.9, speed = 0;
+  Ground ground = Ground::fit;  // below it
+  double value = NAN;           // of it
   std::int64_t last_id = 0;
   std::vector<Order> given;
   std::vector<CommandAck> acks;

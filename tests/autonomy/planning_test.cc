@@ -92,6 +92,43 @@ TEST(Planning, EndsWhenNoTrajectoryIsEverClear) {
   EXPECT_TRUE(flight.mission().done());
 }
 
+bool said(const KinematicFlight& flight, Cause cause) {
+  return std::any_of(flight.events.begin(), flight.events.end(),
+                     [cause](const MissionEvent& event) { return event.cause == cause; });
+}
+
+// Hazard: Surroundings | something stands where it is to land, the ground is steep, returns nothing
+//   (water) or was not seen | moves up to 4 m to a fit place, else hovers 30 s; says so
+//   (`place_unfit`) | –
+TEST(Planning, LandsBesideWhatCameToItsPlaceMeanwhile) {
+  KinematicFlight flight({{8, 6, 0.5}}, shared(free_block(20)));
+  ASSERT_TRUE(flight.run_to(MissionPhase::return_home, 300));
+  occupancy::OccupancyGrid parked = free_block(20);
+  fill(parked, {-1, -1, -0.25}, {1, 1, 1.4}, Cell::occupied);
+  flight.see(shared(parked));
+  (void)flight.run(120);
+  EXPECT_TRUE(flight.mission().succeeded()) << to_string(flight.mission().outcome());
+  EXPECT_GT(flight.place().head<2>().cwiseAbs().maxCoeff(), 1.7);
+  EXPECT_LT(flight.place().head<2>().norm(), 5);
+}
+
+TEST(Planning, HoversWhereNothingIsFitAndThenLandsAllTheSame) {
+  KinematicFlight flight({{8, 6, 0.5}}, shared(free_block(20)));
+  ASSERT_TRUE(flight.run_to(MissionPhase::return_home, 300));
+  occupancy::OccupancyGrid crowd = free_block(20);
+  for (int i = -8; i <= 8; ++i) {
+    for (int k = -8; k <= 8; ++k) {
+      const Eigen::Vector3d foot(i, k, -0.25);
+      fill(crowd, foot, foot + Eigen::Vector3d(0.4, 0.4, 1.8), Cell::occupied);
+    }
+  }
+  flight.see(shared(crowd));
+  const double took_s = flight.run(200);
+  EXPECT_GT(took_s, MissionConfig{}.place_s);
+  EXPECT_EQ(flight.mission().outcome(), Cause::place_unfit);
+  EXPECT_TRUE(said(flight, Cause::place_unfit));
+}
+
 active::ActiveConfig with_lidar_turned(double degrees, const Eigen::Vector3d& axis) {
   active::ActiveConfig active;
   active.policy = active::PolicyName::visit;

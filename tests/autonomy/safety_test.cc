@@ -91,8 +91,9 @@ TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
   }
 }
 
-// Hazard: Odometry | no registered scan for 1 s | no setpoints: the flight controller descends and
-//   lands, even when scans register again (`odometry_lost`) | –
+// Hazard: Odometry | no registered scan for 1 s, the inertial unit does not bridge it | no
+//   setpoints: the flight controller descends and lands, even when scans register again
+//   (`odometry_lost`) | –
 TEST_F(SafetyTest, SilencesTheSetpointsWhenOdometryIsLost) {
   const Time last = now;
   const auto frozen = [last](SafetyInput& input) { input.heard.odometry = last; };
@@ -100,6 +101,26 @@ TEST_F(SafetyTest, SilencesTheSetpointsWhenOdometryIsLost) {
   EXPECT_EQ(pass(0.2, frozen).action, SafetyAction::silence);
   const auto lost = [](SafetyInput& in) { in.odometry.status = VehicleOdometryStatus::lost; };
   EXPECT_EQ(pass(kStep * 1e-9, lost).cause, Cause::odometry_lost);
+}
+
+TEST_F(SafetyTest, HoldsWhileTheInertialUnitKnowsThePlaceAndEndsInSilenceWhenItDoesNot) {
+  const Time last = now;
+  const auto coasts = [last](SafetyInput& input) {
+    input.heard.odometry = last;
+    input.odometry.status = VehicleOdometryStatus::predicted;
+    input.odometry.covariance = Matrix6d::Identity() * 0.01;
+  };
+  EXPECT_EQ(pass(4, coasts).action, SafetyAction::hold);
+  const auto without_covariance = [&](SafetyInput& input) {
+    coasts(input);
+    input.odometry.covariance(3, 3) = NAN;
+  };
+  EXPECT_EQ(pass(kStep * 1e-9, without_covariance).action, SafetyAction::silence);
+  const auto lost = [&](SafetyInput& input) {
+    coasts(input);
+    input.odometry.status = VehicleOdometryStatus::lost;
+  };
+  EXPECT_EQ(pass(kStep * 1e-9, lost).action, SafetyAction::silence);
 }
 
 TEST_F(SafetyTest, EndsAHoldSomeSecondsAfterItsCauseIsGone) {
@@ -134,10 +155,94 @@ TEST_F(SafetyTest, ReturnsWithALowBattery) {
   EXPECT_EQ(pass(1, low).cause, Cause::battery_low);
 }
 
-TEST_F(SafetyTest, LandsAfterACollision) {
-  const auto hit = [](SafetyInput& input) { input.vehicle.faults = kCollision; };
+Cause on_the_ground(const Safety& safety, SafetyInput input) {
+  input.flying = false;
+  const std::vector<Finding> found = safety.findings(input);
+  return found.empty() ? Cause::none : found.front().cause;
+}
+
+// Hazard: Vehicle | the charge of the battery is not known on the ground | it does not take off
+//   (`battery_unknown`) | –
+TEST_F(SafetyTest, AChargeThatIsNotKnownKeepsItOnTheGround) {
+  SafetyInput input = good(now);
+  EXPECT_EQ(on_the_ground(safety, input), Cause::none);
+  for (const double share : {static_cast<double>(NAN), -0.1, 1.1}) {
+    input.vehicle.battery_share = share;
+    EXPECT_EQ(on_the_ground(safety, input), Cause::battery_unknown) << share;
+  }
+}
+
+const auto kUnknown = [](SafetyInput& input) { input.vehicle.battery_share = NAN; };
+
+// Hazard: Vehicle | the charge of the battery is not known for 5 s in flight | returns, lands where
+//   it is when what it was last is used up (`battery_unknown`, `battery_empty`) | –
+TEST_F(SafetyTest, AChargeThatIsNoLongerSaidReturnsAndRunsOut) {
+  (void)pass(1, kNothing);
+  EXPECT_EQ(pass(config.battery_unknown_s - 0.1, kUnknown).action, SafetyAction::none);
+  const SafetyDecision decision = pass(0.3, kUnknown);
+  EXPECT_EQ(decision.action, SafetyAction::return_home);
+  EXPECT_EQ(decision.cause, Cause::battery_unknown);
+  const double lasts_s = (0.8 - config.battery_land_share) * config.battery_flight_s;
+  EXPECT_EQ(pass(lasts_s - 10, kUnknown).action, SafetyAction::return_home);
+  EXPECT_EQ(pass(40, kUnknown).cause, Cause::battery_empty);
+}
+
+TEST_F(SafetyTest, AChargeThatIsSaidAgainIsFlownOnWith) {
+  (void)pass(1, kNothing);
+  (void)pass(config.battery_unknown_s + 1, kUnknown);
+  EXPECT_EQ(pass(0.1, kNothing).action, SafetyAction::none);
+}
+
+/// So far from home, with so much charge, at the drain that is believed before one is measured.
+SafetyDecision far_away(const SafetyConfig& config, double way_m, double share) {
+  Safety ladder(config, motion::Geofence(motion::GeofenceConfig{
+                            .polygon_m = {-1e4, -1e4, 1e4, -1e4, 1e4, 1e4, -1e4, 1e4}}));
+  SafetyInput input = good(100 * kNanosecondsPerSecond);
+  input.place = {way_m, 0, 3};
+  input.vehicle.battery_share = share;
+  return ladder.update(input);
+}
+
+// Hazard: Vehicle | the battery is down to what the way home takes, and the reserve | returns;
+//   lands where it is when the way home takes more (`battery_low`, `battery_empty`) | –
+TEST_F(SafetyTest, ReturnsWhileTheBatteryStillTakesItHomeWithAReserve) {
+  const double way_m = 400, way = (way_m / config.way_home_mps + 6) / config.battery_flight_s;
+  const double reserve = config.battery_land_share;
+  EXPECT_EQ(far_away(config, way_m, way + reserve + 0.01).action, SafetyAction::none);
+  const SafetyDecision low = far_away(config, way_m, way + reserve - 0.01);
+  EXPECT_EQ(low.action, SafetyAction::return_home);
+  EXPECT_EQ(low.text, "battery at 59 %, the way home takes 45 % and the reserve 15 %");
+  const SafetyDecision empty = far_away(config, way_m, way - 0.01);
+  EXPECT_EQ(empty.action, SafetyAction::land);
+  EXPECT_EQ(empty.cause, Cause::battery_empty);
+  EXPECT_EQ(far_away(config, NAN, 0.5).action, SafetyAction::hold);  // nowhere
+}
+
+TEST_F(SafetyTest, LandsAfterAContactThatWasFelt) {
+  const auto hit = [](SafetyInput& input) { input.contact = {input.now - kStep, 20}; };
   EXPECT_EQ(pass(1, hit).cause, Cause::collision);
   EXPECT_EQ(pass(1, hit).action, SafetyAction::land);
+  const auto by_controller = [](SafetyInput& input) { input.vehicle.faults = kCollision; };
+  EXPECT_EQ(pass(1, by_controller).cause, Cause::collision);
+}
+
+TEST_F(SafetyTest, TheGroundThatItComesDownToIsNoContact) {
+  for (const VehicleMode mode : {VehicleMode::land, VehicleMode::descend}) {
+    SafetyInput input = good(now);
+    input.contact = {now, 20};
+    input.vehicle.mode = mode;
+    for (const Finding& finding : safety.findings(input))
+      EXPECT_NE(finding.cause, Cause::collision);
+  }
+}
+
+TEST_F(SafetyTest, AContactOfThePastIsOver) {
+  EXPECT_EQ(pass(1,
+                 [](SafetyInput& input) {
+                   input.contact = {input.now - 2 * kNanosecondsPerSecond, 20};
+                 })
+                .action,
+            SafetyAction::none);
 }
 
 // Hazard: Odometry | what the flight controller gets contradicts its inertial unit and barometer |
@@ -163,6 +268,11 @@ TEST_F(SafetyTest, HoldsOutsideTheGeofence) {
 TEST_F(SafetyTest, HoldsWhenTheVehicleDoesNotFollow) {
   const auto off = [](SafetyInput& input) { input.setpoint->position.x() += 2; };
   EXPECT_EQ(pass(1, off).cause, Cause::off_course);
+}
+
+TEST_F(SafetyTest, ASetpointThatIsNotANumberIsNotFollowed) {
+  const auto broken = [](SafetyInput& input) { input.setpoint->position.setConstant(NAN); };
+  EXPECT_EQ(pass(1, broken).cause, Cause::off_course);
 }
 
 TEST_F(SafetyTest, APlaceThatIsNotANumberIsOutsideTheGeofence) {

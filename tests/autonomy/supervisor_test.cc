@@ -34,11 +34,13 @@ class SupervisorTest : public testing::Test {
     input.vehicle.battery_share = 0.9;
     input.odometry.status = VehicleOdometryStatus::ok;
     input.odometry.T_odom_body.translation() =
-        Eigen::Vector3d(off == Cause::outside_geofence ? 1e4 : 0.0, 0, height);
+        Eigen::Vector3d(off == Cause::outside_geofence ? 120 : 0.0, 0, height);
     input.setpoint.emplace();
     input.setpoint->position = Eigen::Vector3d(off == Cause::off_course ? 5.0 : 0.0, 0, height);
     input.acks = std::exchange(acks, {});
     input.planning = planning;
+    input.planning.stamp = now;
+    input.planning.column = column;
     input.has_targets = true;
     input.classified_share = classified_share;
     const Mission::Output output = supervisor.step(input);
@@ -65,6 +67,7 @@ class SupervisorTest : public testing::Test {
   double height = 0;
   std::vector<CommandAck> acks;
   PlanningReport planning;
+  TakeoffColumn column{TakeoffColumn::State::free};
   MissionOrders orders;
   MissionEvent last;
 };
@@ -76,6 +79,20 @@ TEST_F(SupervisorTest, StaysOnTheGroundWhenSegmentationGivesNothingAClass) {
   EXPECT_FALSE(armed);
   EXPECT_NE(last.text.find("nothing_classified: segmentation gives 0.1 %"), std::string::npos)
       << last.text;
+}
+
+TEST_F(SupervisorTest, StaysOnTheGroundUnderWhatWasSeenAboveOrWasNot) {
+  column = {TakeoffColumn::State::occupied, 2.4};
+  run(10);
+  EXPECT_FALSE(armed);
+  EXPECT_EQ(last.cause, Cause::takeoff_blocked);
+  EXPECT_EQ(last.text, "takeoff_blocked: something is 2.4 m above it");
+  column = {TakeoffColumn::State::unknown, 8.2};
+  run(10);
+  EXPECT_FALSE(armed);
+  column = {TakeoffColumn::State::free};
+  run(5);
+  EXPECT_TRUE(armed);
 }
 
 TEST_F(SupervisorTest, AShareThatIsNotANumberIsNothing) {

@@ -30,9 +30,10 @@ TEST(ConfigValue, EveryDoubleIsReadBackToTheLastBit) {
 
 TEST(ConfigValue, EveryTextIsReadBackTheSame) {
   for (const std::string text :
-       {"",   "plain", "two words", "true", "No",   "~",        "1e3",       "-",   "a: b",
-        "#1", "'",     "\"",        "\\",   "a\nb", " padded ", "é",         "[x]", "{x: 1}",
-        "*a", "&a",    "!x",        "%",    "@",    "0x1F",     "2026-01-01"}) {
+       {"",       "plain",    "two words", "true", "No",   "~",         "1e3",
+        "-",      "a: b",     "#1",        "'",    "\"",   "\\",        "a\nb",
+        "a\r\tb", "\x01\x7f", " padded ",  "é",    "[x]",  "{x: 1}",    "*a",
+        "&a",     "!x",       "%",         "@",    "0x1F", "2026-01-01"}) {
     EXPECT_EQ(read_back(text), text);
   }
 }
@@ -83,6 +84,18 @@ TEST(ParseYaml, SaysInWhichLineItFailed) {
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()).find("f.yaml:3: not YAML"), 0u) << error.what();
   }
+}
+
+TEST(ParseYaml, WhatStandsWithinItselfOrWithoutEndIsRefused) {
+  EXPECT_THROW((void)parse_yaml("a: &x {b: *x}\n", "f.yaml"), Error);
+  std::string bomb = "a0: &a0 [1]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string before = fmt::format("*a{}", i - 1);
+    bomb += fmt::format("a{0}: &a{0} [{1}, {1}, {1}, {1}, {1}, {1}]\n", i, before);
+  }
+  EXPECT_THROW((void)parse_yaml(bomb, "f.yaml"), Error);
+  EXPECT_THROW((void)parse_yaml(std::string(60, '[') + std::string(60, ']'), "f.yaml"), Error);
+  EXPECT_EQ(parse_yaml(std::string(40, '[') + std::string(40, ']'), "f.yaml").size(), 1u);
 }
 
 TEST(FieldComment, SaysUnitRangeAndMeaningWhereThereAreSome) {

@@ -4,6 +4,7 @@
 
 #include "saker/core/error.h"
 #include "saker/core/files.h"
+#include "saker/exchange/bytes.h"
 #include "two_ends.h"
 
 namespace saker::exchange {
@@ -102,6 +103,37 @@ TEST(JournalStore, ACutEndLosesTheCutRecordOnlyAndIsWrittenOver) {
     JournalStore again(folder / "cut");
     ASSERT_EQ(again.bytes(kFlight), bytes.substr(0, held) + more);
   }
+}
+
+/// A journal of one record, its check sum as of a whole one.
+std::string journal_of(std::uint64_t from, std::string_view bytes) {
+  ByteWriter body, out;
+  body.text("R1");
+  for (int i = 0; i < 3; ++i) body.byte(i == 1 ? 1 : 0);  // kind, version, chunk
+  body.varint(from);
+  body.text(bytes);
+  std::uint32_t sum = 1, sums = 0;
+  for (const char byte : body.bytes()) {
+    sum = (sum + static_cast<std::uint8_t>(byte)) % 65521;
+    sums = (sums + sum) % 65521;
+  }
+  out.raw("SAKERSTREAMS1\n");
+  out.text(body.bytes());
+  out.fixed(sums << 16 | sum);
+  return out.bytes();
+}
+
+TEST(JournalStore, ARecordThatDoesNotBeginWhereTheOneBeforeEndsIsNoRecord) {
+  const auto file = test_folder() / "made";
+  core::write_file(file, journal_of(0, "abc"));
+  EXPECT_EQ(JournalStore(file).bytes(kFlight), "abc");
+  for (const std::uint64_t from :
+       {std::uint64_t{1}, std::uint64_t{kChunkBytes}, ~std::uint64_t{0}}) {
+    core::write_file(file, journal_of(from, "abc"));
+    EXPECT_TRUE(JournalStore(file).extents().empty()) << from;
+  }
+  core::write_file(file, journal_of(0, ""));
+  EXPECT_TRUE(JournalStore(file).extents().empty());
 }
 
 TEST(JournalStore, AnotherFileIsRefused) {

@@ -161,6 +161,22 @@ TEST_F(AStore, AChunkMovedToAnotherPlaceIsDamaged) {
   EXPECT_EQ(opened().damaged(), 2);
 }
 
+TEST_F(AStore, ARowThatNamesNoStreamIsDamagedAndNothingElse) {
+  for (const char* wrong : {"kind=9", "kind=-1", "version=4294967297", "robot='r 1'"}) {
+    std::filesystem::remove(file);
+    {
+      DatabaseStore store = opened();
+      EXPECT_TRUE(store.append({"R2", StreamKind::history, 1}, made_bytes(100)));
+      EXPECT_TRUE(store.append(kFlight, made_bytes(100)));
+    }
+    alter(std::string("UPDATE streams SET ") + wrong + " WHERE robot='R2'");
+    const DatabaseStore store = opened();
+    EXPECT_EQ(store.damaged(), 1) << wrong;
+    EXPECT_EQ(store.size(kFlight), 100u) << wrong;
+    EXPECT_EQ(read_report(file.string()).robots.size(), 1u) << wrong;
+  }
+}
+
 TEST_F(AStore, OfANewerVersionIsRefused) {
   { (void)opened(); }
   alter("PRAGMA user_version=2");

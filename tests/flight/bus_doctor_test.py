@@ -52,10 +52,23 @@ class Doctor(unittest.TestCase):
                 run = doctor(command=(SAKER, "doctor", "--set", f"exchange.key_file={key}"))
                 self.assertTrue(line_of(run, "key").startswith(word), run.stdout)
 
+    def test_a_robots_key_under_its_old_name_is_renamed_by_the_remedy(self):
+        with tempfile.TemporaryDirectory(prefix="saker_doctor_") as folder:
+            team, own = f"{folder}/the_teams.key", f"{folder}/team.key"
+            subprocess.run([SAKER, "base", "key", "-o", team], check=True)
+            subprocess.run([SAKER, "base", "key", "--robot", "R1", "-o", own, "--set", f"exchange.key_file={team}"],
+                           check=True)
+            words = (SAKER, "doctor", "--set", f"exchange.key_file={folder}/robot.key")
+            ill = doctor(command=words)
+            self.assertTrue(line_of(ill, "key").startswith("worse"), ill.stdout)
+            remedy = next(line.split("mend with: ")[1] for line in ill.stdout.splitlines() if "mend with: mv " in line)
+            subprocess.run(remedy.split(), check=True)
+            self.assertTrue(line_of(doctor(command=words), "key").startswith("ok"))
+
     def test_every_subject_is_looked_at(self):
         run = doctor()
         for subject in ("multicast route", "multicast route of bulk", "receive buffer", "monotonic clock",
-                        "system clock", "locked memory", "real-time priority", "UDP port 7502", "UDP port 7503", "key"):
+                        "system clock", "locked memory", "real-time priority", "UDP port 7502", "UDP port 7503", "key", "autopilot"):
             self.assertRegex(line_of(run, subject), "^(ok|worse|wrong) ")
 
     def test_the_status_is_one_exactly_when_something_is_wrong(self):

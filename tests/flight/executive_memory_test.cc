@@ -105,6 +105,7 @@ class ExecutiveMemory : public testing::Test {
     board.map_news.put({seen, SE3::Identity(), 0.5});
     board.newest_grid = board.newest_scan = board.newest_registered = seen;
     report.stamp = seen;
+    report.column.state = autonomy::TakeoffColumn::State::free;
     board.report.put(report);
     if (!checker_hangs) say_verdict(seen);
   }

@@ -36,17 +36,21 @@ class Row:
 
 
 class Flight:
-    """Simulator, collision checker and executive; `end` them, whatever happens."""
+    """Simulator, collision checker and executive, with `mavlink` a bridge to that autopilot; `end` them, whatever happens."""
 
-    def __init__(self, folder, event="", settings=(), prior=lambda objects: objects, environment=None):
+    def __init__(self, folder, event="", settings=(), prior=lambda objects: objects, environment=None, mavlink=""):
         self.folder, self.processes = pathlib.Path(folder), {}
         self.environment = environment or {}  # of the executive, beside this one's
         scenario = self.folder / "scenario.yaml"
         scenario.write_text(SCENARIO.read_text() + (f"  events: [{event}]\n" if event else ""))
         self.site, self.out = self.folder / "simulator", self.folder / "executive"
-        self.start("saker-sim", scenario, "-o", self.site)
+        behind = ("--mavlink", mavlink, "--mavlink-line", "udp:127.0.0.1:14550") if mavlink else ()
+        self.start("saker-sim", scenario, "-o", self.site, *behind)
         self.wait(lambda: (self.site / "metadata.json").exists(), 20, "a site")
         self.choose_targets(prior)
+        if mavlink:
+            settings = ("mission.command.deadline_s=60", *settings)
+            self.start("saker-mavlink", "--set", f"mavlink.autopilot={mavlink}", "--set", "mavlink.line=udp:listen:14550")
         config = ("--config", self.site / "site.yaml")
         self.start("saker-collision-checker", *config)
         own = [word for setting in settings for word in ("--set", setting)]
@@ -86,9 +90,9 @@ class Flight:
         self.wait(lambda: (rows := self.rows()) and done(rows[-1]), seconds, what)
         return self.rows()[-1]
 
-    def fly_fast(self):
+    def fly_fast(self, seconds=30):
         """Until it is on the way to a target."""
-        return self.wait_for_row(lambda row: row.ground_speed > FAST, 30, "fast flight")
+        return self.wait_for_row(lambda row: row.ground_speed > FAST, seconds, "fast flight")
 
     def fly_into_event(self):
         self.wait_for_row(lambda row: row.events > 0, 30, "event")

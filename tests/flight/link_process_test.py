@@ -107,6 +107,15 @@ class Link(RadioTest):
         self.wait(lambda: "joins R1" in self.log("link"), 20, "link")
         self.assertIn(f"{self.key} is the team's key", self.log("link"))
 
+    def test_a_robot_whose_key_has_its_old_name_is_heard_and_says_so(self):
+        self.start_ground()
+        installed = self.folder / "installed"
+        installed.mkdir()
+        shutil.copy2(self.robot_key, installed / "team.key")
+        self.start_link(key=installed / "robot.key")
+        self.wait(lambda: "R1 is there" in self.log("base"), 20, "link")
+        self.assertIn(f"its old name {installed}/team.key is read", self.log("link"))
+
     def test_what_keeps_it_from_starting_is_one_line(self):
         def refusal(*settings, status=2):
             words = [word for setting in settings for word in ("--set", setting)]

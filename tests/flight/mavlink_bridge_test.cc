@@ -44,6 +44,7 @@ TEST_P(MavlinkFlight, NoSetpointGoesOutBeforeTheTakeOffIsOrdered) {
   EXPECT_EQ(flown_.sent<Target>(), 0);
 }
 
+// Hazard: Autopilot | setpoints stop | a stop is sent within a tick | 2
 TEST_P(MavlinkFlight, WhenSetpointsStopTheVehicleIsStoppedWithinATick) {
   flown_.take_off();
   flown_.setpoints_run = true;
@@ -57,6 +58,7 @@ TEST_P(MavlinkFlight, WhenSetpointsStopTheVehicleIsStoppedWithinATick) {
   EXPECT_TRUE(state->faults & kSetpointExpired);
 }
 
+// Hazard: Autopilot | odometry stops | LAND is ordered within 0.3 s, until it is answered | 2
 TEST_P(MavlinkFlight, WithoutOdometryItIsToldToLandWithinThreeTenths) {
   flown_.take_off();
   flown_.setpoints_run = true;
@@ -94,6 +96,8 @@ TEST_P(MavlinkFlight, ALandOrderThatIsNotAnsweredIsSentUntilItIs) {
   EXPECT_EQ(flown.mode(), dialect_of(GetParam()).land.custom);
 }
 
+// Hazard: Autopilot | a pilot takes over | nothing that moves goes out any more; orders are refused
+//   with that cause until an operator resumes | 2
 TEST_P(MavlinkFlight, APilotHasItAtOnceAndForGood) {
   flown_.take_off();
   flown_.setpoints_run = true;
@@ -210,6 +214,7 @@ INSTANTIATE_TEST_SUITE_P(Both, MavlinkFlight,
                          ::testing::Values(Autopilot::ardupilot, Autopilot::px4),
                          [](const auto& kind) { return std::string(to_string(kind.param)); });
 
+// Hazard: Autopilot | it refuses to arm | its text is the cause; what passes is tried for 60 s | –
 TEST(MavlinkBridge, WhatDoesNotPassIsTheReasonOfTheRefusal) {
   tools::Quirks quirks = tools::quirks_of(Autopilot::ardupilot);
   quirks.checks = {{"PreArm: Battery 1 low voltage failsafe", 1e9}};
@@ -291,6 +296,8 @@ TEST(MavlinkBridge, AnswersToOthersAreNotOurs) {
   EXPECT_EQ(flown.answers.size(), 1u);
 }
 
+// Hazard: Autopilot | odometry begins anew with another heading | ArduPilot, which keeps the old
+//   one, is told to land; PX4 follows | 2
 TEST(MavlinkBridge, AHeadingThatIsResetMakesArdupilotLand) {
   for (const Autopilot kind : {Autopilot::ardupilot, Autopilot::px4}) {
     Flown flown(kind);

@@ -1,4 +1,4 @@
-"""`saker-mavlink check` against the simulated aircraft behind ArduPilot's MAVLink: what fits, what differs, what is written."""
+"""`saker-mavlink check` and the row of `saker doctor` against the simulated aircraft behind ArduPilot's MAVLink: what fits, what differs, what is written."""
 
 import os
 import pathlib
@@ -39,6 +39,14 @@ class Check(unittest.TestCase):
         return subprocess.run([BIN / "saker-mavlink", "check", "--set", LINE, *more], capture_output=True, text=True,
                               stdin=subprocess.DEVNULL, timeout=60, check=False)
 
+    def doctor(self, *more):
+        run = subprocess.run([BIN / "saker", "doctor", "--set", LINE, *more], capture_output=True, text=True,
+                             stdin=subprocess.DEVNULL, timeout=60, check=False)
+        return next(line for line in run.stdout.splitlines() if line[7:].startswith("autopilot "))
+
+    def test_1_doctor_says_who_is_there_and_that_its_parameters_fit(self):
+        self.assertRegex(self.doctor(), r"^ok +autopilot +ardupilot, system 1, \d+ parameters fit$")
+
     def test_1_what_flew_in_the_simulator_fits(self):
         run = self.check()
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
@@ -65,6 +73,32 @@ class Check(unittest.TestCase):
         run = self.check("--set", "mavlink.autopilot=px4")
         self.assertEqual(run.returncode, 2)
         self.assertIn("mavlink.autopilot", run.stderr)
+
+    def test_4_doctor_says_that_another_autopilot_is_there(self):
+        row = self.doctor("--set", "mavlink.autopilot=px4")
+        self.assertRegex(row, "^wrong +autopilot +mavlink.autopilot: the line has kind 3 .*, expected 12 .px4.")
+
+    def test_5_doctor_names_what_differs(self):
+        table = self.folder / "doctor.yaml"
+        table.write_text("autopilot: ardupilot\nparameters:\n  - {name: VISO_TYPE, values: [3], why: another camera}\n"
+                         "  - {name: EK3_ENABLE, values: [1], why: the same}\n")
+        self.assertRegex(self.doctor("--set", f"mavlink.table={table}"),
+                         "^wrong +autopilot +ardupilot, system 1, not as they have to be: VISO_TYPE$")
+
+    def test_5_doctor_says_what_it_waited_for(self):
+        self.assertRegex(self.doctor("--set", "mavlink.line=udp:listen:14999"),
+                         "^worse +autopilot +no heartbeat on udp:listen:14999 for 2.5 s$")
+
+    def test_6_doctor_leaves_the_line_to_a_bridge_that_runs(self):
+        bridge = subprocess.Popen([BIN / "saker-mavlink", "--set", LINE], stderr=subprocess.PIPE, text=True)
+        try:
+            for line in bridge.stderr:
+                if "is system 1" in line:
+                    break
+            self.assertRegex(self.doctor(), rf"^ok +autopilot +saker-mavlink of R1 .process {bridge.pid}. has its line")
+        finally:
+            bridge.terminate()
+            bridge.communicate()
 
     def test_5_a_silent_line_is_status_1(self):
         run = self.check("--set", "mavlink.line=udp:listen:14999")

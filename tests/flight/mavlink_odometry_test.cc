@@ -126,6 +126,24 @@ TEST_F(MavlinkOdometry, AJumpWithoutAResetIsALie) {
   EXPECT_TRUE(out_.good(kHost + 2100 * kMs));
 }
 
+/// The autopilot would fly the jump back.
+TEST_F(MavlinkOdometry, AfterALieNothingIsSentUntilItIsTrustedAndThenItIsAReset) {
+  fly(10 * kMs, 1000 * kMs);
+  const auto jumped = [](Time stamp) {
+    auto odometry = at(stamp);
+    odometry.T_odom_body.translation().y() += 3;
+    return odometry;
+  };
+  int sent = 0;
+  for (Time t = 1000 * kMs; t < 2000 * kMs; t += 10 * kMs)
+    sent += hear(jumped(t)).message.has_value();
+  EXPECT_EQ(sent, 0);
+  const auto first = hear(jumped(2010 * kMs));
+  ASSERT_TRUE(first.message);
+  EXPECT_EQ(first.message->reset_counter, 1);
+  EXPECT_EQ(hear(jumped(2040 * kMs)).message->reset_counter, 1);
+}
+
 TEST_F(MavlinkOdometry, APlaceThatStandsWhileItSaysItMovesIsFrozen) {
   fly(10 * kMs, 1000 * kMs);
   const auto place = at(990 * kMs).T_odom_body;

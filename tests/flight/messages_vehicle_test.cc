@@ -90,6 +90,8 @@ TEST(Messages, ACommandComesBack) {
 
 TEST(Messages, ATakeOffToNowhereIsRefused) {
   EXPECT_FALSE(from_lcm(to_lcm(Command{.stamp = 0, .id = 1, .kind = CommandKind::takeoff})));
+  EXPECT_FALSE(from_lcm(
+      to_lcm(Command{.stamp = 0, .id = 1, .kind = CommandKind::takeoff, .height_m = INFINITY})));
 }
 
 TEST(Messages, AnAcknowledgementKeepsItsReasonUpToTheCeiling) {
@@ -192,6 +194,21 @@ TEST(Messages, NoTrajectoryIsAnAnswer) {
   const auto back = from_lcm(*to_lcm(motion::Trajectory{}, 0));
   ASSERT_TRUE(back);
   EXPECT_TRUE(back->empty());
+}
+
+TEST(Messages, ATrajectoryWhoseEndIsNoTimeIsRefused) {
+  const trajectory_t good = *to_lcm(some_trajectory(3), 0);
+  ASSERT_TRUE(from_lcm(good).has_value());
+  for (const double step_s : {0.0, -0.05, 1e12, double{INFINITY}, double{NAN}}) {
+    trajectory_t wrong = good;
+    wrong.step_s = step_s;
+    EXPECT_FALSE(from_lcm(wrong).has_value()) << step_s;
+  }
+  for (const std::int64_t start : {std::int64_t{-1}, std::int64_t{9'000'000'000'000'001}}) {
+    trajectory_t wrong = good;
+    wrong.start_utime = start;
+    EXPECT_FALSE(from_lcm(wrong).has_value()) << start;
+  }
 }
 
 TEST(Messages, ATrajectoryWithAStateThatIsNotANumberIsRefused) {

@@ -247,6 +247,23 @@ TEST(RobotView, APlanOfAChoiceThatIsNotThereChoosesNothing) {
   }
 }
 
+TEST(RobotView, ARefusedViewpointIsNoCandidateAndSaysWhy) {
+  RobotView view = made_view();
+  plan_t plan = made_plan({4, 7, 8, 9, 10}, 1);
+  plan.candidates[1].gain = -3;
+  plan.candidates[2].gain = -9;
+  plan.candidates[3].gain = -10;  // of a newer robot
+  plan.candidates[4].gain = NAN;
+  view.hear(plan, 1);
+  const Json shown = view.message(Topic::plan, 1).value();
+  ASSERT_EQ(shown["candidates"].size(), 2u);
+  EXPECT_EQ(shown["candidates"][1]["target_id"], 10);
+  ASSERT_EQ(shown["refused"].size(), 3u);
+  EXPECT_EQ(shown["refused"][0]["reason"], "occupied");
+  EXPECT_EQ(shown["refused"][1]["reason"], "outside the region");
+  EXPECT_EQ(shown["refused"][2]["reason"], "refused");
+}
+
 TEST(RobotView, AGainThatIsNotKnownAddsNothing) {
   RobotView view = made_view();
   plan_t plan = made_plan({4}, 1);

@@ -148,5 +148,79 @@ TEST(RosCloud, AStampKeepsItsNanoseconds) {
   EXPECT_EQ(h.width, 0u);
 }
 
+/// 2 beams of 2 columns, 10 ms apart; the second beam of the first column has no return.
+lidar::Scan made_sensed() {
+  lidar::Scan scan;
+  scan.stamp = 7 * kNanosecondsPerSecond;
+  scan.rows = scan.columns = 2;
+  scan.points = {{1, 0, 0}, {2, 0, 0}, {NAN, NAN, NAN}, {4, 0, 0}};
+  scan.reflectivity = {0.25f, 0.5f, 0, 1};
+  scan.offset_ns = {-10'000'000, 0, -10'000'000, 0};
+  return scan;
+}
+
+struct SensedHead {
+  std::uint32_t sec, nanosec, width, step;
+  std::vector<std::string> fields;
+};
+
+SensedHead sensed_head(Cdr& cdr) {
+  SensedHead h{};
+  h.sec = cdr.number();
+  h.nanosec = cdr.number();
+  static_cast<void>(cdr.text());
+  static_cast<void>(cdr.number());  // height
+  h.width = cdr.number();
+  for (std::uint32_t left = cdr.number(); left > 0; --left) {
+    h.fields.push_back(cdr.text());
+    h.fields.back().pop_back();
+    static_cast<void>(cdr.number());
+    static_cast<void>(cdr.byte());
+    static_cast<void>(cdr.number());
+  }
+  static_cast<void>(cdr.byte());
+  h.step = cdr.number();
+  static_cast<void>(cdr.number());
+  EXPECT_EQ(cdr.number(), h.width * h.step);
+  return h;
+}
+
+TEST(RosCloud, OfASensedScanTheStampIsTheFirstPointsTime) {
+  Cdr cdr(ros_cloud(made_sensed(), "a"));
+  const SensedHead h = sensed_head(cdr);
+  EXPECT_EQ(h.sec, 6u);
+  EXPECT_EQ(h.nanosec, 990'000'000u);
+  EXPECT_EQ(h.width, 3u);
+  EXPECT_EQ(h.fields, (std::vector<std::string>{"x", "y", "z", "intensity", "t", "ring"}));
+  EXPECT_EQ(h.step, 22u);
+}
+
+TEST(RosCloud, EachPointOfASensedScanHasItsTimeAndBeam) {
+  Cdr cdr(ros_cloud(made_sensed(), "a"));
+  const SensedHead h = sensed_head(cdr);
+  const std::string data = cdr.bytes(h.width * h.step);
+  const auto at = [&](std::size_t point, std::size_t offset, auto value) {
+    std::memcpy(&value, data.data() + 22 * point + offset, sizeof(value));
+    return value;
+  };
+  EXPECT_EQ(at(2, 0, 0.0f), 4);
+  EXPECT_EQ(at(1, 12, 0.0f), 0.5f);
+  EXPECT_EQ(at(0, 16, std::uint32_t{0}), 0u);
+  EXPECT_EQ(at(2, 16, std::uint32_t{0}), 10'000'000u);
+  EXPECT_EQ(at(0, 20, std::uint16_t{0}), 0);
+  EXPECT_EQ(at(2, 20, std::uint16_t{0}), 1);
+  EXPECT_EQ(cdr.byte(), 1);
+  EXPECT_TRUE(cdr.over());
+}
+
+TEST(RosCloud, AScanWhoseBeamsAreNotKnownHasNoRing) {
+  lidar::Scan scan = made_sensed();
+  scan.rows = scan.columns = 0;
+  Cdr cdr(ros_cloud(scan, "a"));
+  const SensedHead h = sensed_head(cdr);
+  EXPECT_EQ(h.fields.back(), "t");
+  EXPECT_EQ(h.step, 20u);
+}
+
 }  // namespace
 }  // namespace saker::flight::viewers

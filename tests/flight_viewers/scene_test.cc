@@ -116,6 +116,14 @@ TEST(Scene, OfViewpointsTheChosenOneIsSolid) {
   EXPECT_EQ(arrows[1]["color"]["a"], 1);
 }
 
+TEST(Scene, RefusedViewpointsAreNotDrawn) {
+  RobotView view = made_view();
+  plan_t plan = made_plan({4, 7}, 1);
+  plan.candidates[1].gain = -4;
+  view.hear(plan, 1);
+  EXPECT_EQ(entity_of(view, "viewpoints")["arrows"].size(), 1u);
+}
+
 TEST(Scene, EveryEntityIsInAFrameOfItsRobot) {
   RobotView view = made_view();
   view.hear(made_objects({made_vehicle(3, 10, 2)}), 1);

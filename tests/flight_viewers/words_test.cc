@@ -48,7 +48,7 @@ TEST(Words, OfOdometryAreThoseOfTheMessage) {
 
 TEST(Words, OfCausesAreKnownOfEveryOneAndOfNoOther) {
   std::set<std::string> words;
-  for (int code = 0; code <= static_cast<int>(Cause::ordered); ++code)
+  for (int code = 0; code <= static_cast<int>(autonomy::kLastCause); ++code)
     EXPECT_TRUE(words.insert(cause_word(code)).second) << cause_word(code);
   EXPECT_FALSE(words.contains("unknown"));
   for (const int code : {-1, 1000, INT32_MAX, INT32_MIN}) EXPECT_EQ(cause_word(code), "unknown");

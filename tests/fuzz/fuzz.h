@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
+#include "saker/core/error.h"
 #include "saker/lidar/cursor.h"
 #include "saker/lidar/recording.h"
 #include "saker/lidar/sensor_info.h"
@@ -13,6 +15,13 @@ namespace saker::lidar::fuzz {
 
 /// Of the input; what a target is.
 void run(ByteView input);
+
+/// Ends the program where something is wrong.
+void expect(bool right);
+
+[[nodiscard]] inline ByteView bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 /// A file that holds the input, the same one each time.
 [[nodiscard]] std::filesystem::path file_of(ByteView input, const std::string& extension);

@@ -1,3 +1,7 @@
+#include "seeds.h"
+
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -14,32 +18,29 @@
 
 /// fuzz_seeds FOLDER: FOLDER/TARGET/ with a few good inputs of each target, as the tests make them.
 namespace saker::lidar::fuzz {
+
+std::filesystem::path Seeds::file(const std::string& target) {
+  std::filesystem::create_directories(folder_ / target);
+  return folder_ / target / fmt::format("seed-{}", next_++);
+}
+
+void Seeds::add(const std::string& target, const SeedBytes& bytes) {
+  testing::write_bytes(file(target), bytes);
+}
+
+SeedBytes behind(std::uint8_t first, std::string_view text) {
+  SeedBytes all = {first};
+  all.insert(all.end(), text.begin(), text.end());
+  return all;
+}
+
+SeedBytes behind(std::uint8_t first, const SeedBytes& bytes) {
+  return behind(first, text_of(bytes));
+}
+
 namespace {
 
 using testing::Bytes;
-
-class Seeds {
- public:
-  explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-  std::filesystem::path file(const std::string& target) {
-    std::filesystem::create_directories(folder_ / target);
-    return folder_ / target / ("seed-" + std::to_string(next_++));
-  }
-  void add(const std::string& target, const Bytes& bytes) {
-    testing::write_bytes(file(target), bytes);
-  }
-
- private:
-  std::filesystem::path folder_;
-  int next_ = 0;
-};
-
-Bytes behind(std::uint8_t first, const Bytes& bytes) {
-  Bytes all = {first};
-  all.insert(all.end(), bytes.begin(), bytes.end());
-  return all;
-}
 
 void add_bags(Seeds& seeds) {
   const auto ros1 = testing::made_drive(1, Encoding::kRos1);
@@ -157,4 +158,5 @@ int main(int count, char** words) {
   saker::lidar::fuzz::add_spinning(seeds);
   saker::lidar::fuzz::add_ouster(seeds);
   saker::lidar::fuzz::add_ground(seeds);
+  saker::lidar::fuzz::add_flight(seeds);
 }

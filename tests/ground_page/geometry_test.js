@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import {ellipse95, footprint, pointsOf, roundLength, toGeodetic, whiskers95, yawOf} from "../../flight/ground/page/geometry.js";
+import {ellipse95, footprint, pointsOf, roundLength, toGeodetic, whiskers95, writeVertices, yawOf} from "../../flight/ground/page/geometry.js";
 import {mergeMaps} from "../../flight/ground/page/merge.js";
 
 const near = (a, b, within = 1e-9) => assert.ok(Math.abs(a - b) <= within, `${a} is not ${b}`);
@@ -118,4 +118,41 @@ test("the axes of an ellipse are a right angle, the longer one first", () => {
   const {a, b, angle} = ellipse95([0.01, 0, 0.04]);
   assert.ok(a > b);
   near(Math.abs(angle), Math.PI / 2);
+});
+
+/// The vertices of shapes with these matrices, of a triangle that lies across x and y.
+function vertices(matrices, colours) {
+  const unit = {position: [0.5, 0.5, 0, -0.5, 0.5, 0, 0, -0.5, 0], normal: [0, 0, 1, 0, 0, 1, 1, 0, 0]}, count = matrices.length / 16;
+  const into = Object.fromEntries(["position", "normal", "color", "unitPlace", "unitNormal", "unitSize"].map(name => [name, new Float64Array(9 * count)]));
+  writeVertices(unit, matrices, colours, count, into);
+  return into;
+}
+
+const allNear = (found, wanted) => wanted.forEach((v, i) => assert.ok(Math.abs(found[i] - v) < 1e-12, `${i}: ${found[i]}, not ${v}`));
+
+test("vertices of a shape are those of the unit shape, scaled, turned and moved", () => {
+  // 4 along x and 2 along y, turned by a quarter (x is y, y is -x), moved to (10, 20, 30).
+  const {position, unitPlace, unitSize} = vertices([0, 4, 0, 0, -2, 0, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1]);
+  allNear(position, [9, 22, 30, 9, 18, 30, 11, 20, 30]);
+  allNear(unitPlace, [0.5, 0.5, 0, -0.5, 0.5, 0, 0, -0.5, 0]);
+  allNear(unitSize, [4, 2, 1, 4, 2, 1, 4, 2, 1]);
+});
+
+test("normals of a shape keep their length and stand on its faces, however it is stretched", () => {
+  // The x axis goes to (3, 3, 0), the y axis to (-0.5, 0.5, 0).
+  const {normal} = vertices([3, 3, 0, 0, -0.5, 0.5, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]);
+  allNear(normal, [0, 0, 1, 0, 0, 1, Math.SQRT1_2, Math.SQRT1_2, 0]);
+});
+
+test("each shape has its own place and colour; without colours all are white", () => {
+  const at = (x, size) => [size, 0, 0, 0, 0, size, 0, 0, 0, 0, size, 0, x, 0, 0, 1];
+  const {position, color} = vertices([...at(1, 1), ...at(5, 2)], [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+  allNear(position.slice(9), [6, 1, 0, 4, 1, 0, 5, -1, 0]);
+  allNear(color, [0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+  allNear(vertices(at(0, 1)).color, Array(9).fill(1));
+});
+
+test("a shape without size makes no number that is none", () => {
+  const {position, normal} = vertices(Array(16).fill(0));
+  assert.ok([...position, ...normal].every(Number.isFinite));
 });

@@ -175,11 +175,11 @@ test("health: before a process is heard that is said", () => {
   assert.match(all.parent.textContent, /waiting for R1_HEALTH/);
 });
 
-function fleet(names, more = {}) {
+function fleet(names, more = {}, parts = {}) {
   const all = given({}, more), view = {mergedMap: []};
   for (const name of names) all.store.know(`/${name}/state`);
   const bar = all.parent, panel = document.createElement("section");
-  const robots = new Robots({bar, panel, store: all.store, choices: all.choices, view, mode: all.parts.mode});
+  const robots = new Robots({bar, panel, store: all.store, choices: all.choices, view, mode: all.parts.mode, ...parts});
   robots.update();
   return {...all, view, panel, robots, chips: () => bar.byClass("chip")};
 }
@@ -190,6 +190,24 @@ test("robots: a chip each, in the order of their names; a click chooses", () => 
   chips()[1].click();
   assert.equal(choices.robot, "R2");
 });
+
+/// What the base's section says, a line each; null: it is not shown.
+function told(base, now_s = 1000) {
+  const {store, robots, panel} = fleet(["R1"], {}, {clock: () => now_s});
+  if (base) store.take("/store", base, 0);
+  robots.update();
+  return robots.base.hidden ? null : panel.byClass("told")[0].children.map(node => plain(node.textContent));
+}
+
+test("robots: without a base nothing is said of one", () => assert.equal(told(null), null));
+
+test("robots: the base says who told what, and when", () => {
+  const streams = [{kind: "history", version: 3, bytes: 41200, gaps: 0, came_s: 940}, {kind: "prior_map", version: 1, bytes: 900, gaps: 2}];
+  assert.deepEqual(told({file_bytes: 1, robots: [{name: "R1", heard_s: 988, streams}, {name: "R2", streams: []}]}), [
+    "R1: in contact 12 s ago", "R1, flight 3: 41.2 kB, more came 1 min 00 s ago", "R1, prior map 1: 0.9 kB, 2 pieces after a gap", "R2: never in contact, told nothing yet"]);
+});
+
+test("robots: a base that holds nothing says so", () => assert.deepEqual(told({file_bytes: 1, robots: []}), ["nothing yet"]));
 
 test("robots: the first one is chosen where the chosen one is not there", () => {
   const {choices} = fleet(["R7", "R3"]);

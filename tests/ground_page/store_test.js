@@ -149,3 +149,12 @@ test("what is not known of the vehicle is a gap, no zero", () => {
   const {battery, height, link} = store.robots.get("R1");
   assert.deepEqual([battery, height, link].map(({samples}) => samples), [[[1, null]], [[1, null]], [[1, null]]]);
 });
+
+test("what the base holds is no robot's", () => {
+  const store = new Store();
+  assert.equal(store.know("/store"), null);
+  store.take("/store", {file_bytes: 5, robots: []}, 1);
+  assert.deepEqual(store.base, {file_bytes: 5, robots: []});
+  assert.equal(store.robots.size, 0);
+  assert.ok(store.takeChanges().has("/store"));
+});

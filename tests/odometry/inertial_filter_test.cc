@@ -6,6 +6,7 @@
 
 #include "made_imu.h"
 #include "made_world.h"
+#include "saker/core/rng.h"
 
 namespace saker::odometry {
 namespace {
@@ -199,6 +200,42 @@ TEST(InertialFilter, StartedAgainKeepsWhatItKnowsOfTheBiases) {
   EXPECT_EQ(filter.rate_bias(), bias);
   EXPECT_LT(std::sqrt(filter.covariance()(11, 11)), 0.01);
   EXPECT_TRUE(filter.pose_covariance().isZero());
+}
+
+Matrix6d isotropic(double sd) { return sd * sd * Matrix6d::Identity(); }
+
+TEST(InertialFilter, APlaceThatErrsAsExpectedSurprisesByThree) {
+  InertialFilter filter({});
+  filter.start(0, at(1, 2, 3), isotropic(0.3), kStill, 0);
+  core::Rng rng(1);
+  double sum = 0;
+  constexpr int kPlaces = 2000;
+  for (int i = 0; i < kPlaces; ++i) {
+    const SE3 measured = at(1 + rng.normal(0, 0.5), 2 + rng.normal(0, 0.5), 3 + rng.normal(0, 0.5));
+    sum += filter.surprise(measured, isotropic(0.4)).square;
+  }
+  EXPECT_NEAR(sum / kPlaces, 3, 0.2);
+}
+
+TEST(InertialFilter, AfterItsDoubtTheStateAllowsForWhatWasSeen) {
+  InertialFilter filter({});
+  filter.start(0, SE3::Identity(), isotropic(0.1), kStill, 0.2);
+  const auto surprise = filter.surprise(at(0.5, 0, 0), isotropic(0.1));
+  const double speed_variance = filter.covariance()(6, 6);
+  filter.doubt(surprise, isotropic(0.1));
+  const double place = filter.pose_covariance().bottomRightCorner<3, 3>().trace();
+  EXPECT_NEAR(place, 0.25 - 0.03, 1e-12);
+  EXPECT_NEAR(filter.covariance()(6, 6) / speed_variance, place / 0.03, 1e-9);
+}
+
+TEST(InertialFilter, DoubtNeverMakesSurerAndHasAnEnd) {
+  InertialFilter filter({});
+  filter.start(0, SE3::Identity(), isotropic(0.1), kStill, 0.2);
+  const Matrix15d before = filter.covariance();
+  filter.doubt(filter.surprise(at(0.01, 0, 0), isotropic(0.1)), isotropic(0.1));
+  EXPECT_EQ(filter.covariance(), before);
+  filter.doubt(filter.surprise(at(1000, 0, 0), isotropic(0.1)), isotropic(0.1));
+  EXPECT_TRUE(filter.covariance().isApprox(100 * before));
 }
 
 }  // namespace

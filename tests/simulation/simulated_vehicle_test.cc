@@ -111,7 +111,7 @@ TEST(SimulatedVehicle, FlownIntoAParkedVehicleItCountsACollision) {
   EXPECT_GE(pilot.vehicle.truth().collisions, 1);
   EXPECT_LE(pilot.vehicle.truth().min_clearance_m, 0);
   EXPECT_EQ(pilot.vehicle.truth().nearest_label, kCar);
-  EXPECT_TRUE(pilot.vehicle_state.faults & kCollision);
+  EXPECT_FALSE(pilot.vehicle_state.faults & kCollision) << "the truth, which it cannot know";
 }
 
 TEST(SimulatedVehicle, TwoRunsCutIntoOtherStepsAreByteIdentical) {

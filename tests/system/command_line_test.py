@@ -1,6 +1,8 @@
 """The program from outside: what is wrong gets one line on stderr and status 2, never a crash."""
 
+import json
 import unittest
+import xml.etree.ElementTree
 
 from program import ROOT, ProgramTest, saker
 
@@ -60,14 +62,31 @@ class CommandLine(ProgramTest):
                 self.assertIn("bad.json", self.refused("map", *command))
 
     def test_a_map_goes_into_every_form(self):
-        for form in ("json", "smap", "csv", "ply", "geojson"):
+        for form in ("json", "smap", "csv", "ply", "geojson", "kml"):
             with self.subTest(form=form):
                 run = saker("map", "convert", MAP, self.folder / f"m.{form}", "--origin", "48.1,-11.6")
                 self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertEqual((self.folder / "m.json").read_bytes(), MAP.read_bytes())
         self.assertIn("--origin", self.refused("map", "convert", MAP, self.folder / "n.geojson"))
+        self.assertIn("--origin", self.refused("map", "convert", MAP, self.folder / "n.kml"))
         self.assertIn(".geojson", self.refused("map", "convert", MAP, self.folder / "n.txt"))
         self.assertIn("--region", self.refused("map", "convert", MAP, self.folder / "n.json", "--region", "1,2,0,3"))
+
+    def test_kml_is_well_formed_and_stands_where_the_sites_origin_says(self):
+        told, set_ = self.folder / "told.kml", self.folder / "set.kml"
+        self.assertEqual(saker("map", "convert", MAP, told, "--origin", "48.1,-11.6", "--heading", "30").returncode, 0)
+        run = saker("map", "convert", MAP, set_, "--set", "site.origin=[48.1, -11.6, 30]")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(told.read_text(), set_.read_text())
+        names = {"k": "http://www.opengis.net/kml/2.2"}
+        marks = xml.etree.ElementTree.parse(told).getroot().findall(".//k:Placemark", names)
+        self.assertEqual(len(marks), len(json.loads(MAP.read_text())["objects"]))
+        for mark in marks:
+            for corner in mark.find(".//k:coordinates", names).text.split():
+                longitude, latitude, height = map(float, corner.split(","))
+                self.assertAlmostEqual(longitude, -11.6, delta=0.01)
+                self.assertAlmostEqual(latitude, 48.1, delta=0.01)
+                self.assertGreater(height, 0)
 
     def test_what_is_whole_of_a_damaged_map_is_kept(self):
         saker("map", "convert", MAP, self.folder / "m.smap", "--compact")

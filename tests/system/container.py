@@ -18,9 +18,9 @@ PTRACE_ATTACH = 16
 WALL = 0x40000000  # waitpid(2), __WALL: threads too
 
 
-def command(*words, check=True, **options):
+def command(*words, check=True, timeout=900, **options):
     run = subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                         stderr=subprocess.STDOUT, text=True, timeout=900, **options)
+                         stderr=subprocess.STDOUT, text=True, timeout=timeout, **options)
     if check and run.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, words))}: status {run.returncode}\n{run.stdout[-4000:]}")
     return run

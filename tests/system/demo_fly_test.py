@@ -38,8 +38,8 @@ class Fly(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.out = pathlib.Path(holder.name)
 
-    def start(self, scenario=SCENARIO):
-        self.run = subprocess.Popen([ROOT / "scripts/fly", scenario, self.out], stdin=subprocess.DEVNULL,
+    def start(self, scenario=SCENARIO, *options, before=()):
+        self.run = subprocess.Popen([*before, ROOT / "scripts/fly", scenario, self.out, *options], stdin=subprocess.DEVNULL,
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                     env=os.environ | {"SAKER_BIN": os.path.dirname(os.environ["SAKER"])})
         self.addCleanup(self.run.kill)
@@ -65,6 +65,13 @@ class Fly(unittest.TestCase):
         self.assertEqual(self.run.returncode, 1, text)
         self.assertIn("saker-collision-checker ended with status 137", text)
         self.assertIn("listens as R1", text)
+
+    def test_with_a_page_its_address_is_printed_and_it_ends_with_the_flight(self):
+        self.start(SCENARIO, "1", "--page", before=[ROOT / "tests/flight/in_namespace.sh"])
+        self.assertIn("saker-ground", self.await_all())
+        self.run.send_signal(signal.SIGTERM)
+        text = self.ended(30)
+        self.assertRegex(text, r"(?m)^http://127\.0\.0\.1:\d+/$")
 
     def test_an_interrupt_ends_all(self):
         self.start()

@@ -159,7 +159,7 @@ class Units(unittest.TestCase):
         self.run("mv", "/etc/saker/team.key", "/var/tmp/")
         self.addCleanup(self.run, "mv", "/var/tmp/team.key", "/etc/saker/")
         self.run("systemctl", "start", FLIGHT)
-        self.assertIn("no key of a team at /etc/saker/team.key: this flight tells nobody", self.said(FLIGHT))
+        self.assertIn("no key of a team at /etc/saker/robot.key: this flight tells nobody", self.said(FLIGHT))
 
     def test_an_order_goes_out_as_the_page_says(self):
         words = ["runuser", "-u", "saker", "--", "saker", "order", "R1", "hold"]

@@ -13,7 +13,7 @@ mission:
 # Ends on the ground after a second: nothing has come from the sensor's pipeline by then.
 AT_ONCE = ("--set", "mission.preflight_s=1")
 LEFT = {"detections.jsonl", "experiment.json", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "map.svg", "odometry.txt",
-        "prior.json", "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
+        "prior.json", "report.html", "results.json", "table.txt", "timings.csv", "trajectory.txt", "trajectory_truth.txt",
         "truth.json", "viewpoints.csv", "viewpoints.txt"}
 
 

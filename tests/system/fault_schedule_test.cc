@@ -136,6 +136,17 @@ TEST(FaultSchedule, TheStrongestActs) {
   EXPECT_EQ(acting(schedule, FaultKind::lose, FaultPlace::state, 6), nullptr);
 }
 
+TEST(FaultSchedule, AnOrderIsReadBackByItsWord) {
+  Fault order;
+  order.kind = FaultKind::order;
+  order.place = FaultPlace::return_home;
+  order.at_s = 5;
+  order.lasts_s = 1;
+  const auto json = to_json({order});
+  EXPECT_EQ(json[0].at("place"), "return");
+  EXPECT_EQ(faults_from_json(json, "a.json").front().place, FaultPlace::return_home);
+}
+
 TEST(FaultSchedule, ItIsSaidInWords) {
   EXPECT_EQ(text_of(lost_verdicts(12.25, 2, 0.4)),
             "lose verdict, 0.4 share from 12.25 s for 2.00 s");

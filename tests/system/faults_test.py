@@ -67,6 +67,36 @@ class Faults(ProgramTest):
             self.assertEqual(run.returncode, 2, text)
             self.assertIn("no record of a flight", run.stderr)
 
+    def flown(self, *schedule, seconds=32):
+        """What comes of these faults, one after the other from 16 s on, in the air: (kind, place)."""
+        file = self.folder / "made.json"
+        faults = [{"kind": kind, "place": place, "at_s": 16 + i, "lasts_s": None, "strength": 1, "towards_deg": 0, "seed": 1}
+                  for i, (kind, place) in enumerate(schedule)]
+        file.write_text(json.dumps({"seed": 1, "most_s": seconds, "schedule": faults, "digest": ""}))
+        return json.loads(saker("faults", self.scenario, "--replay", file).stdout)
+
+    def test_an_order_is_obeyed(self):
+        record = self.flown(("order", "land"), ("order", "resume"))
+        self.assertEqual(record["breaches"], [])
+        self.assertIn({"to": "landing", "cause": "ordered"},
+                      [{key: event[key] for key in ("to", "cause")} for event in record["events"]])
+        self.assertIn("order_refused", [event["cause"] for event in record["events"]])
+
+    # Hazard: Stages and links | the executive is started again in the air | the new one does not fly; the flight controller holds,
+    #   then comes down | 2
+    def test_without_an_executive_it_comes_down(self):
+        record = self.flown(("restart", "executive"))
+        self.assertEqual(record["breaches"], [])
+        self.assertNotEqual(record["phase"], "done")
+        self.assertGreater(record["flight_time_s"], 0)
+
+    # Hazard: Stages and links | the disk is full | the flight is the same to the byte; files of before stay whole | –
+    def test_a_full_disk_leaves_the_flight_as_it_was(self):
+        full, whole = self.flown(("disk", "full")), self.flown()
+        self.assertEqual(full["digest"], whole["digest"])
+        self.assertGreater(full["files_failed"], 0)
+        self.assertEqual(whole["files_failed"], 0)
+
     def test_a_search_needs_a_folder(self):
         run = saker("faults", self.scenario)
         self.assertEqual(run.returncode, 2)

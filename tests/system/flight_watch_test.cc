@@ -118,6 +118,28 @@ TEST_F(Watched, WhoComesDownWithoutAPoseCannotChooseThePlace) {
   EXPECT_TRUE(broken(Invariant::no_collision));
 }
 
+TEST_F(Watched, WhoAbortsByOrderLooksForNoPlace) {
+  state.mode = VehicleMode::land;
+  truth.velocity = {0.1, 0, -0.7};
+  truth.collisions = 1;
+  watch.on_reply({.order = {1, autonomy::OrderKind::abort},
+                  .state = autonomy::OrderState::accepted,
+                  .text = "comes down"});
+  step(1);
+  EXPECT_FALSE(broken(Invariant::no_collision));
+}
+
+TEST_F(Watched, WhoLandsByOrderLooks) {
+  state.mode = VehicleMode::land;
+  truth.velocity = {0.1, 0, -0.7};
+  truth.collisions = 1;
+  watch.on_reply({.order = {1, autonomy::OrderKind::land},
+                  .state = autonomy::OrderState::accepted,
+                  .text = "lands"});
+  step(1);
+  EXPECT_TRUE(broken(Invariant::no_collision));
+}
+
 TEST_F(Watched, WhoHoldsIsAtRestAfterTwoSeconds) {
   truth.velocity = {1, 0, 0};
   say(1, MissionPhase::hold, autonomy::Cause::lidar_silent, "no scan");
@@ -208,6 +230,47 @@ TEST_F(Watched, AnEndWithoutACauseIsABreach) {
   EXPECT_FALSE(broken(Invariant::cause_said));
   say(2, MissionPhase::done, autonomy::Cause::none, "");
   EXPECT_TRUE(broken(Invariant::cause_said));
+}
+
+TEST_F(Watched, ARefusalWithoutACauseIsABreach) {
+  watch.on_ack({.accepted = false, .reason = "is armed already"});
+  watch.on_reply({{1, autonomy::OrderKind::land}, autonomy::OrderState::refused, "lands already"});
+  autonomy::PlanningReport no_way;
+  no_way.status = autonomy::PlanningStatus::refused;
+  no_way.text = "no path";
+  watch.on_plan(no_way, {});
+  EXPECT_FALSE(broken(Invariant::cause_said));
+  no_way.text = "";
+  watch.on_plan(no_way, {});
+  EXPECT_TRUE(broken(Invariant::cause_said));
+}
+
+TEST_F(Watched, ARefusedCommandAnOrderAndAScanNeedACauseToo) {
+  FlightWatch others[] = {{schedule, fence, motion::LimitsConfig{}, kBegin},
+                          {schedule, fence, motion::LimitsConfig{}, kBegin},
+                          {schedule, fence, motion::LimitsConfig{}, kBegin}};
+  others[0].on_ack({.accepted = false, .reason = ""});
+  others[1].on_reply({{1, autonomy::OrderKind::land}, autonomy::OrderState::refused, ""});
+  others[2].on_scan({});
+  for (const FlightWatch& other : others) {
+    ASSERT_EQ(other.breaches().size(), 1U);
+    EXPECT_EQ(other.breaches().front().invariant, Invariant::cause_said);
+  }
+}
+
+TEST_F(Watched, WithoutAnExecutiveItIsAtRestAfterTwoSeconds) {
+  truth.velocity = {1, 0, 0};
+  step(1);
+  watch.on_executive_gone(kBegin + from_seconds(1));
+  fly(1, 2.9);
+  EXPECT_FALSE(broken(Invariant::at_rest));
+  fly(2.9, 3.2);
+  EXPECT_TRUE(broken(Invariant::at_rest));
+}
+
+TEST_F(Watched, AFileThatIsNotWholeIsABreach) {
+  watch.on_torn_file("map.smap is not what was written to it");
+  EXPECT_TRUE(broken(Invariant::whole_files));
 }
 
 TEST_F(Watched, TheDigestTellsPathsApart) {

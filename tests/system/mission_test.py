@@ -19,9 +19,9 @@ ROBOTS = """  - {name: R1, x_m: -3, lot_m: [-100, -60, 0, -60, 0, 60, -100, 60]}
 # Ends on the ground after a second: nothing has come from the sensor's pipeline by then.
 AT_ONCE = ("--set", "mission.preflight_s=1")
 LEFT = {"R1", "R2", "log.txt", "map.json", "map.png", "map.smap", "map.svg", "mission.json", "prior.json",
-        "results.json", "table.txt", "truth.json"}
+        "report.html", "results.json", "table.txt", "truth.json"}
 LEFT_BY_A_ROBOT = {"detections.jsonl", "history.bin", "log.txt", "map.json", "map.png", "map.smap", "map.svg",
-                   "odometry.txt", "prior.json", "results.json", "timings.csv", "trajectory.txt", "trajectory_truth.txt", "truth.json",
+                   "odometry.txt", "prior.json", "report.html", "results.json", "timings.csv", "trajectory.txt", "trajectory_truth.txt", "truth.json",
                    "viewpoints.csv", "viewpoints.txt"}
 
 
@@ -74,7 +74,7 @@ class Mission(ProgramTest):
     def test_several_seeds_have_folders_and_one_table_that_is_made_again_without_flying(self):
         self.run_at_once("--runs", "2", "--seed", "5")
         self.assertEqual({p.name for p in self.out.iterdir()},
-                         {"seed-5", "seed-6", "log.txt", "mission.json", "results.json", "table.txt"})
+                         {"seed-5", "seed-6", "log.txt", "mission.json", "report.html", "results.json", "table.txt"})
         table = json.loads((self.out / "results.json").read_text())
         self.assertEqual([row["robot"] for row in table["table"]], ["R1", "R2", "together"])
         self.assertEqual([row["targets"] for row in table["table"]][2], 8)

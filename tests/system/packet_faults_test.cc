@@ -165,5 +165,51 @@ TEST_F(Packets, GarbageIsNoPacketOfThisSensor) {
   EXPECT_GT(std::ranges::count_if(payload, [](std::uint8_t byte) { return byte != 0; }), 1000);
 }
 
+std::vector<std::uint8_t> imu_packet(const lidar::SensorInfo& info) {
+  return lidar::encode_imu({kStamp, {0.1, 0.2, 9.8}, {0.01, 0.02, 0.03}}, info);
+}
+
+TEST_F(Packets, NobodyElseSendsWithoutAFault) {
+  const FaultSchedule schedule = {fault(FaultKind::flood, 50, FaultPlace::lidar)};
+  PacketFaults faults(schedule, info);
+  EXPECT_TRUE(faults.company(15, imu_packet(info)).empty());
+  EXPECT_TRUE(faults.company(9, imu_packet(info)).empty());
+}
+
+TEST_F(Packets, AFloodIsCopiesOfEachPacket) {
+  const FaultSchedule schedule = {fault(FaultKind::flood, 50, FaultPlace::imu)};
+  PacketFaults faults(schedule, info);
+  const auto payload = imu_packet(info);
+  const auto others = faults.company(15, payload);
+  EXPECT_EQ(others.size(), 50U);
+  for (const auto& other : others) EXPECT_EQ(other, payload);
+}
+
+TEST_F(Packets, AForgedInertialSampleIsOfAnotherTime) {
+  const FaultSchedule schedule = {fault(FaultKind::forge, 5, FaultPlace::imu)};
+  PacketFaults faults(schedule, info);
+  const auto others = faults.company(15, imu_packet(info));
+  ASSERT_EQ(others.size(), 1U);
+  EXPECT_EQ(lidar::decode_imu(others[0], info).front().stamp, kStamp + 5 * kNanosecondsPerSecond);
+}
+
+TEST_F(Packets, AForgedScanIsOfAnotherTimeAndFrame) {
+  const FaultSchedule schedule = {fault(FaultKind::forge, -2, FaultPlace::lidar)};
+  PacketFaults faults(schedule, info);
+  const lidar::PacketFormat format(info);
+  std::vector<lidar::Column> columns(static_cast<std::size_t>(info.columns_per_packet));
+  for (lidar::Column& column : columns) {
+    column.time = kStamp;
+    column.frame_id = 7;
+    column.pixels.assign(static_cast<std::size_t>(info.rows), {kRange_mm, 100, 10, 50});
+  }
+  const auto others = faults.company(15, format.encode(columns));
+  ASSERT_EQ(others.size(), 1U);
+  const lidar::Column forged = format.column(others[0], 0);
+  EXPECT_EQ(forged.time, kStamp - 2 * kNanosecondsPerSecond);
+  EXPECT_NE(forged.frame_id, 7);
+  EXPECT_EQ(forged.pixels[0].range_mm, kRange_mm);
+}
+
 }  // namespace
 }  // namespace saker::tools

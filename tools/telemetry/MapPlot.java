@@ -137,6 +137,7 @@ public class MapPlot extends Plot implements SpyPlugin {
     private void drawCandidates(Graphics2D g) {
       for (int i = 0; i < plan.num_candidates; ++i) {
         candidate_t candidate = plan.candidates[i];
+        if (candidate.gain < 0) continue;  // refused
         double x = candidate.position[0], y = candidate.position[1];
         g.setColor(i == plan.choice ? Color.RED : Color.GRAY);
         g.draw(new Ellipse2D.Double(x - 0.3, y - 0.3, 0.6, 0.6));

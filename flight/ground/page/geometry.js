@@ -62,3 +62,31 @@ export function roundLength(most) {
 
 /// Yaw of a quaternion x y z w.
 export const yawOf = ([x, y, z, w]) => Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+
+/// Vertices of `count` shapes: {position, normal, …}, written into `into`, a flat array each: place and normal in the frame
+/// of the matrices (4 × 4, column-major), colour (white without `colours`), place, normal and size in the unit shape. `unit`: {position, normal}.
+export function writeVertices(unit, matrices, colours, count, into) {
+  const corners = unit.position.length / 3;
+  for (let i = 0, at = 0; i < count; ++i) {
+    const m = 16 * i, size = [0, 1, 2].map(k => Math.hypot(matrices[m + 4 * k], matrices[m + 4 * k + 1], matrices[m + 4 * k + 2]));
+    for (let c = 0; c < corners; ++c, at += 3) {
+      let length = 0;
+      for (let row = 0; row < 3; ++row) {
+        let place = matrices[m + 12 + row], normal = 0;
+        for (let k = 0; k < 3; ++k) {
+          place += matrices[m + 4 * k + row] * unit.position[3 * c + k];
+          normal += matrices[m + 4 * k + row] * unit.normal[3 * c + k] / (size[k] * size[k] || 1);
+        }
+        into.position[at + row] = place;
+        into.normal[at + row] = normal;
+        length += normal * normal;
+        into.color[at + row] = colours ? colours[3 * i + row] : 1;
+        into.unitPlace[at + row] = unit.position[3 * c + row];
+        into.unitNormal[at + row] = unit.normal[3 * c + row];
+        into.unitSize[at + row] = size[row];
+      }
+      const scale = 1 / (Math.sqrt(length) || 1);
+      for (let row = 0; row < 3; ++row) into.normal[at + row] *= scale;
+    }
+  }
+}

@@ -1,8 +1,10 @@
-/// Objects of a map as they are: cuboids with their front, cylinders, local ground planes; instanced, so that ten thousand are three calls.
+/// Objects of a map as they are: cuboids with their front, cylinders, local ground planes; instanced, so that ten thousand are three calls, or, where
+/// WebGL is computed by the processor, in one mesh each.
 ///
 /// Reads objects of /R1/objects (m, frame of the group they are put into); `pick` says which one a ray hits.
 
 import * as THREE from "three";
+import {Batch} from "./batch.js";
 import {ofClass} from "./colours.js";
 
 const UP = new THREE.Vector3(0, 0, 1);
@@ -10,10 +12,18 @@ const FRONT_M = 0.9;  // length of the mark at a cuboid's front, at most a third
 
 // Edges are drawn darker than faces, and a cuboid's front carries an arrow on top and a light band before: its heading is seen from everywhere.
 const VERTEX = {
-  "#include <common>": "#include <common>\nvarying vec3 vPlace; varying vec3 vSize; varying vec3 vNormalOf;",
+  "#include <common>": `#include <common>
+    varying vec3 vPlace; varying vec3 vSize; varying vec3 vNormalOf;
+    #ifndef USE_INSTANCING
+      attribute vec3 unitPlace; attribute vec3 unitNormal; attribute vec3 unitSize;
+    #endif`,
   "#include <begin_vertex>": `#include <begin_vertex>
-    vPlace = position; vNormalOf = normal;
-    vSize = vec3(length(instanceMatrix[0].xyz), length(instanceMatrix[1].xyz), length(instanceMatrix[2].xyz));`,
+    #ifdef USE_INSTANCING
+      vPlace = position; vNormalOf = normal;
+      vSize = vec3(length(instanceMatrix[0].xyz), length(instanceMatrix[1].xyz), length(instanceMatrix[2].xyz));
+    #else
+      vPlace = unitPlace; vNormalOf = unitNormal; vSize = unitSize;
+    #endif`,
 };
 const CUBOID_FRAGMENT = {
   "#include <common>": "#include <common>\nvarying vec3 vPlace; varying vec3 vSize; varying vec3 vNormalOf;",
@@ -39,10 +49,12 @@ function marked(material, fragment) {
   return material;
 }
 
-/// Instances of one shape, as many as are needed.
+/// Instances of one shape, as many as are needed. `batched`: drawn as one mesh; the instances say where they are, and are what a ray hits.
 class Instances {
-  constructor(group, geometry, material) {
+  constructor(group, geometry, material, batched = false) {
     Object.assign(this, {group, geometry, material, mesh: null, ids: []});
+    this.batch = batched ? new Batch(group, geometry, material) : null;
+    if (batched) material.vertexColors = true;
   }
 
   reserve(count) {
@@ -56,6 +68,7 @@ class Instances {
     this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
     this.mesh.setColorAt(0, new THREE.Color());
     this.mesh.frustumCulled = false;
+    this.mesh.visible = !this.batch;
     this.group.add(this.mesh);
   }
 
@@ -66,6 +79,7 @@ class Instances {
     this.mesh.instanceMatrix.needsUpdate = true;
     if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
     this.mesh.boundingSphere = null;
+    this.batch?.set(this.mesh.instanceMatrix.array, this.mesh.instanceColor?.array, ids.length);
   }
 }
 
@@ -87,12 +101,12 @@ export function matrixOf(object) {
 }
 
 export class ObjectLayer {
-  /// Ground planes go into `below`, which stays where the objects fade.
-  constructor(group, below = group) {
+  /// Ground planes go into `below`, which stays where the objects fade; `batched`: as `Instances` has it.
+  constructor(group, below = group, batched = false) {
     this.group = group;
     const lit = () => new THREE.MeshLambertMaterial();
-    this.cuboids = new Instances(group, new THREE.BoxGeometry(1, 1, 1), marked(lit(), CUBOID_FRAGMENT));
-    this.cylinders = new Instances(group, new THREE.CylinderGeometry(0.5, 0.5, 1, 12).rotateX(Math.PI / 2), lit());
+    this.cuboids = new Instances(group, new THREE.BoxGeometry(1, 1, 1), marked(lit(), CUBOID_FRAGMENT), batched);
+    this.cylinders = new Instances(group, new THREE.CylinderGeometry(0.5, 0.5, 1, 12).rotateX(Math.PI / 2), lit(), batched);
     const earth = new THREE.MeshBasicMaterial({color: "#e2dccf"});
     this.planes = new Instances(below, new THREE.CircleGeometry(1, 20), earth);
   }

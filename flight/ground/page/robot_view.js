@@ -22,13 +22,13 @@ export class RobotView {
     this.world = world;
     this.own = new THREE.Group();  // its own map, faded against the merged one
     world.add(this.own);
-    this.objects = new ObjectLayer(this.own, world);
+    this.objects = new ObjectLayer(this.own, world, scene.software);
     this.uncertainty = new UncertaintyLayer(scene, this.own);
     this.prior = new PriorLayer(scene, world);
     this.geofence = new GeofenceLayer(scene, world);
     this.viewpoints = new ViewpointLayer(scene, world);
     this.path = new PathLayer(scene, odom, world, colour);
-    this.occupancy = new OccupancyLayer(odom);
+    this.occupancy = new OccupancyLayer(odom, scene.software);
     this.points = new PointsLayer(odom);
     this.vehicle = new VehicleLayer(odom, colour);
   }

@@ -23,7 +23,7 @@ function bySoftware() {
 export class Scene {
   constructor(canvas) {
     this.canvas = canvas;
-    const software = bySoftware();
+    const software = this.software = bySoftware();
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: !software, powerPreference: "low-power"});
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color("#eef1f4");

@@ -146,6 +146,7 @@ export class Store {
     this.playback = null;      // of a finished run
     this.played_s = -Infinity; // its time when it was said last
     this.time_s = null;        // of the newest message
+    this.base = null;          // what the base station holds of each robot
   }
 
   /// Robots in the order of their names, so that each keeps its colour.
@@ -168,6 +169,7 @@ export class Store {
     this.changed.add(topic);
     this.time_s = time_s;
     if (topic === "/playback") this.#play(message);
+    else if (topic === "/store") this.base = message;
     else this.know(topic)?.take(topic.split("/")[2], message, time_s, this.now());
   }
 

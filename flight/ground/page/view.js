@@ -17,7 +17,7 @@ export class View {
     this.scene = new Scene(canvas);
     this.labels = new Labels(labels, this.scene);
     this.robots = new Map();
-    this.merged = new ObjectLayer(this.scene.frame("merged"));
+    this.merged = new ObjectLayer(this.scene.frame("merged"), undefined, this.scene.software);
     this.merged.setOpacity(0);
     this.mergedMap = [];
     this.highlight = new Highlight();

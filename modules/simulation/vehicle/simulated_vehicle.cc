@@ -120,7 +120,6 @@ void SimulatedVehicle::at_50_hz() {
   watch_contacts();
   run_events();
   state_ = controller_.state();
-  if (truth().collisions > 0) state_->faults |= kCollision;
 }
 
 /// What each foot would stand on: beyond the world's edge a plain.

@@ -21,6 +21,8 @@
 #include "tools/saker/experiment/mission_run.h"
 #include "tools/saker/experiment/variant.h"
 #include "tools/saker/mission/team_mission.h"
+#include "tools/saker/record/run_recording.h"
+#include "tools/saker/report/html_report.h"
 
 namespace saker::tools {
 namespace {
@@ -33,6 +35,7 @@ struct ExperimentOptions {
   std::vector<std::string> scenarios;
   std::vector<std::string> policies, variants;  ///< neither: the configuration's policy
   int runs = 1;
+  std::string record;  ///< an MCAP file; empty: none
 };
 
 /// A run, and the folder inside OUT that it has for itself.
@@ -180,9 +183,42 @@ bool good(const Json& run) {
   return false;
 }
 
+/// The one run goes into the file of --record, too.
+void record(const ExperimentOptions& options, const CommonOptions& common, std::vector<Job>& jobs) {
+  const auto file = record_file(options.record, common.force);
+  if (!file) return;
+  if (jobs.size() != 1)
+    throw Error(fmt::format("--record: {} runs, expected one: saker convert makes a file of each",
+                            jobs.size()));
+  if (!common.force && fs::exists(fs::path(common.out) / kResults))
+    throw Error("--record: " + common.out + " is finished and not flown again, expected --force");
+  jobs.front().run.record = file;
+  jobs.front().run.origin = read_configuration(common).site.origin;
+}
+
+/// A page of each run, and one of all.
+void leave_reports(const std::vector<Job>& jobs, const fs::path& out, const CommonOptions& common) {
+  flight::ProcessConfig config = read_configuration(common);
+  const auto title = [](const MissionRun& run) {
+    return fmt::format("Mission {}, {}, seed {}", run.scenario, run.policy, run.seed);
+  };
+  if (jobs.size() > 1) {
+    for (const Job& job : jobs) {
+      flight::ProcessConfig own = config;
+      own.autonomy = job.run.config;
+      write_html_report(out / job.folder, title(job.run), own);
+    }
+    leave_html_report(out, fmt::format("{} missions", jobs.size()), config);
+    return;
+  }
+  config.autonomy = jobs.front().run.config;
+  leave_html_report(out, title(jobs.front().run), config);
+}
+
 int experiment(const ExperimentOptions& options, const CommonOptions& common) {
   const std::vector<Variant> variants = variants_of(options, common);
-  const std::vector<Job> jobs = jobs_of(options, variants, common);
+  std::vector<Job> jobs = jobs_of(options, variants, common);
+  record(options, common, jobs);
   check_sites(jobs, common);
   const std::string wanted = manifest(options, variants, common);
   CommonOptions outer = common;
@@ -200,7 +236,8 @@ int experiment(const ExperimentOptions& options, const CommonOptions& common) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     runs.push_back({out.path() / jobs[i].folder, results[i]});
   }
-  std::cout << write_report(runs, out.path());
+  std::cout << write_report(runs, out.path()) << std::flush;
+  leave_reports(jobs, out.path(), common);
   return all_good ? 0 : 1;
 }
 
@@ -226,6 +263,9 @@ void add_experiment(Commands& commands) {
          "\"NAME KEY=VALUE …\": a configuration to compare, by a name of its own; repeatable")
       ->type_name("TEXT")
       ->allow_extra_args(false);
+  app.add_option("--record", options->record,
+                 "write the one run with its scans into an MCAP file for viewers and saker replay")
+      ->type_name("FILE");
   app.add_option("--runs", options->runs, "seeds of each: --seed and those that follow")
       ->check(CLI::Range(1, 100000));
 }

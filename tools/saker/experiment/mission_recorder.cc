@@ -5,9 +5,7 @@
 namespace saker::tools {
 namespace {
 
-constexpr std::size_t kPointsPerScan = 150;
-constexpr std::size_t kMostPoints = 1'000'000;  // 16 MB; then the picture's background stops
-constexpr std::size_t kMostEvents = 10'000;     // a mission has some tens
+constexpr std::size_t kMostEvents = 10'000;  // a mission has some tens
 constexpr std::size_t kMostCauses = 100;
 
 /// "no path: closed in by …" and all others of its kind.
@@ -29,7 +27,7 @@ MissionRecorder::MissionRecorder(simulation::SimulatedVehicle& vehicle,
       detections_(out, table),
       log_(std::move(log)),
       progress_(progress) {
-  cloud_.reserve(std::min(kMostPoints, most_scans * 2 * kPointsPerScan));
+  cloud_.reserve(most_scans);
   true_poses_.reserve(most_scans);
 }
 
@@ -37,13 +35,9 @@ void MissionRecorder::on_scan(const autonomy::IngestedScan& scan) {
   for (const simulation::ScanTruth& truth : vehicle_.take_scan_truth()) {
     true_poses_.push_back({to_seconds(truth.stamp), truth.T_world_lidar});
   }
-  if (const auto& points = scan.registered.points) {
-    const std::size_t stride = std::max<std::size_t>(points->size() / kPointsPerScan, 1);
-    for (std::size_t i = 0; i < points->size() && cloud_.size() < kMostPoints; i += stride) {
-      if ((*points)[i].allFinite()) cloud_.push_back({scans_, (*points)[i]});
-    }
-  }
-  ++scans_;
+  cloud_.add(scan.registered.points ? std::span(*scan.registered.points)
+                                    : std::span<const Eigen::Vector3f>());
+  if (recording_ != nullptr && scan.scan) recording_->add(*scan.scan);
 }
 
 void MissionRecorder::on_map(const autonomy::MapSnapshot& map) {
@@ -91,16 +85,6 @@ void MissionRecorder::on_event(const autonomy::MissionEvent& event) {
                      {"to", to_string(event.to)},
                      {"cause", to_string(event.cause)},
                      {"text", std::string(event.text)}});
-}
-
-std::vector<Eigen::Vector3d> MissionRecorder::cloud(const std::vector<SE3>& T_world_lidar) const {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(cloud_.size());
-  for (const SparsePoint& p : cloud_) {
-    if (p.scan >= T_world_lidar.size()) break;
-    points.emplace_back(T_world_lidar[p.scan] * p.in_lidar.cast<double>());
-  }
-  return points;
 }
 
 nlohmann::ordered_json MissionRecorder::record() const {

@@ -13,6 +13,8 @@
 #include "saker/core/progress.h"
 #include "saker/simulation/vehicle/simulated_vehicle.h"
 #include "tools/saker/experiment/viewpoint_log.h"
+#include "tools/saker/record/run_recording.h"
+#include "tools/saker/replay/sparse_cloud.h"
 #include "tools/saker/replay/trajectory_truth.h"
 
 namespace saker::tools {
@@ -28,6 +30,9 @@ class MissionRecorder : public autonomy::MissionObserver {
                   const objects::ClassTable& table, std::shared_ptr<spdlog::logger> log,
                   core::Progress* progress, std::size_t most_scans);
 
+  /// Scans go into it, too, from now on. \param recording  outlives this; null: none
+  void record_into(RunRecording* recording) { recording_ = recording; }
+
   void on_scan(const autonomy::IngestedScan& scan) override;
   void on_map(const autonomy::MapSnapshot& map) override;
   void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override;
@@ -41,18 +46,13 @@ class MissionRecorder : public autonomy::MissionObserver {
   }
   /// T_world_lidar as it truly was, at the stamps of the scans.
   [[nodiscard]] const std::vector<StampedPose>& true_poses() const { return true_poses_; }
-  /// Points of all scans in `world`. \param T_world_lidar of the scans, after SLAM
-  [[nodiscard]] std::vector<Eigen::Vector3d> cloud(const std::vector<SE3>& T_world_lidar) const;
+  /// Some points of each scan.
+  [[nodiscard]] const SparseCloud& cloud() const { return cloud_; }
   void finish() { detections_.finish(); }  ///< throws Error when not all could be written
   /// {"refusals": {cause: number}, "events": [{"t_s", "from", "to", "cause", "text"}]}
   [[nodiscard]] nlohmann::ordered_json record() const;
 
  private:
-  struct SparsePoint {
-    std::uint32_t scan;  ///< number of the scan
-    Eigen::Vector3f in_lidar;
-  };
-
   simulation::SimulatedVehicle& vehicle_;
   Time start_;
   objects::ObjectMap truth_;
@@ -60,8 +60,8 @@ class MissionRecorder : public autonomy::MissionObserver {
   ViewpointLog viewpoints_;
   std::shared_ptr<spdlog::logger> log_;
   core::Progress* progress_;
-  std::uint32_t scans_ = 0;
-  std::vector<SparsePoint> cloud_;
+  RunRecording* recording_ = nullptr;
+  SparseCloud cloud_{150};
   std::vector<StampedPose> true_poses_;
   std::vector<std::pair<Time, active::Viewpoint>> flown_to_;
   std::map<std::string, int> refusals_;

@@ -151,8 +151,18 @@ void write_maps(const autonomy::MissionResult& result, const objects::ObjectMap&
                      .truth = &truth,
                      .trajectory = std::move(path),
                      .viewpoints = std::move(viewpoints),
-                     .cloud = recorder.cloud(result.T_world_lidar)},
+                     .cloud = recorder.cloud().in_world(result.T_world_lidar)},
                     table);
+}
+
+/// Into the recording what the finished folder holds, and some points of each scan.
+void finish_recording(RunRecording& recording, const MissionRun& run,
+                      const autonomy::Config& config, const autonomy::MissionResult& result,
+                      const MissionRecorder& recorder, const fs::path& out) {
+  std::vector<Time> stamps;
+  for (const autonomy::ScanRecord& scan : result.scans) stamps.push_back(scan.stamp);
+  recording.finish(out, flight::viewers::site_of(config, run.origin),
+                   recorder.cloud().scans(stamps, result.T_world_lidar));
 }
 
 /// What it tells other robots.
@@ -199,6 +209,8 @@ Json fly(const MissionRun& run, const fs::path& out) {
   MissionRecorder recorder(
       vehicle, out, config.objects, run.log, progress ? &*progress : nullptr,
       static_cast<std::size_t>(std::ceil(longest * vehicle.sensor().frame_rate_hz)));
+  std::optional<RunRecording> recording;
+  if (run.record) recorder.record_into(&recording.emplace(*run.record, "R1"));
   const double built_s = seconds_since(begin);
   const Time start = vehicle.now();
   const autonomy::MissionResult result = mission.run(longest, recorder);
@@ -230,6 +242,7 @@ Json fly(const MissionRun& run, const fs::path& out) {
   core::write_file(out / "viewpoints.csv", recorder.viewpoints().csv());
   core::write_file(out / "timings.csv", timings.csv());
   core::write_file(out / "results.json", results.dump(2) + "\n");
+  if (recording) finish_recording(*recording, run, config, result, recorder, out);
   return results;
 }
 

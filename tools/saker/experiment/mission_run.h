@@ -37,6 +37,8 @@ struct MissionRun {
   int threads = 1;
   std::shared_ptr<spdlog::logger> log;
   bool shows_progress = true;
+  std::optional<std::filesystem::path> record = std::nullopt;  ///< an MCAP file beside `out`
+  std::vector<double> origin = {};                             ///< of it, as site.origin has it
 };
 
 /// What a vehicle is told of its site: the fence (`world`), heights that fit under it, and how its

@@ -19,9 +19,10 @@ using P = FaultPlace;
 constexpr int kMostFaults = 3;
 constexpr double kStays = 0.2;  // of those that may
 constexpr std::array kPlaces = {
-    "none",         "lidar",        "imu",     "state",      "ack",     "odometry",
-    "setpoint",     "command",      "scans",   "trajectory", "verdict", "occupancy",
-    "registration", "segmentation", "mapping", "planning",   "checker"};
+    "none",    "lidar",    "imu",        "state",     "ack",       "odometry",     "setpoint",
+    "command", "scans",    "trajectory", "verdict",   "occupancy", "registration", "segmentation",
+    "mapping", "planning", "checker",    "executive", "hold",      "resume",       "return",
+    "land",    "abort",    "full",       "slow",      "cut"};
 
 std::vector<FaultKindInfo> kinds() {
   const std::vector<P> channels = {P::lidar,      P::imu,      P::state,    P::ack,
@@ -29,29 +30,34 @@ std::vector<FaultKindInfo> kinds() {
                                    P::trajectory, P::verdict,  P::occupancy};
   const std::vector<P> stages = {P::registration, P::segmentation, P::mapping, P::planning,
                                  P::checker};
+  const std::vector<P> orders = {P::hold, P::resume, P::return_home, P::land, P::abort};
   return {
       {lose, "lose", "share", 0.1, 1, false, 0.1, 10, true, channels},
       {delay, "delay", "s", 0.02, 0.5, false, 0.1, 10, true, channels},
       {repeat, "repeat", "share", 0.1, 1, false, 0.1, 10, true, channels},
       {stick, "stick", "", 0, 0, false, 0.1, 10, true, {P::state, P::odometry}},
       {garbage, "garbage", "share", 0.05, 1, false, 0.1, 5, true, {P::lidar, P::imu, P::state}},
+      {flood, "flood", "times", 5, 100, false, 0.1, 2, false, {P::lidar, P::imu}},
+      {forge, "forge", "s", 0.03, 1000, true, 0.1, 10, true, {P::lidar, P::imu}},
       {clock_drift, "clock_drift", "ppm", 20, 500, true, 30, 600, true},
       {clock_step, "clock_step", "s", 0.005, 0.1, true, 1, 600, true},
       {imu_bias, "imu_bias", "m/s²", 0.05, 1, true, 1, 60, true},
       {imu_saturation, "imu_saturation", "m/s²", 10.5, 20, false, 1, 60, true},
       {imu_vibration, "imu_vibration", "m/s²", 0.2, 5, false, 1, 60, true},
       {rows_dead, "rows_dead", "share", 0.05, 0.6, false, 1, 60, true},
-      {view_covered, "view_covered", "share", 0.1, 0.6, false, 0.5, 60, true},
+      {view_covered, "view_covered", "share", 0.1, 1, false, 0.5, 60, true},
       {rain, "rain", "share", 0.01, 0.3, false, 1, 60, true},
       {gust, "gust", "m/s", 2, 8, false, 0.5, 4},
       {wall, "wall", "m", 3, 8, false, 1, 1},
       {person, "person", "m/s", 0.5, 2, false, 1, 1},
       {lorry, "lorry", "m/s", 1, 6, false, 1, 1},
       {stall, "stall", "", 0, 0, false, 0.1, 10, true, stages},
-      {restart, "restart", "", 0, 0, false, 0.2, 3, false, {P::checker}},
+      {restart, "restart", "", 0, 0, false, 0.2, 3, false, {P::checker, P::executive}},
       {battery_drop, "battery_drop", "share", 0.1, 0.9, false, 600, 600, true},
       {battery_unknown, "battery_unknown", "", 0, 0, false, 0.1, 30, true},
+      {disk, "disk", "s", 0.1, 10, false, 1, 60, true, {P::full, P::slow, P::cut}},
       {prior, "prior", "m", 1, 20, false, 600, 600, true},
+      {order, "order", "", 0, 0, false, 1, 1, false, orders},
   };
 }
 

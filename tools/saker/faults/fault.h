@@ -22,6 +22,8 @@ enum class FaultKind {
   repeat,
   stick,
   garbage,
+  flood,  ///< copies of each packet
+  forge,  ///< a packet of somebody else beside each of the sensor's
   // Of the sensor.
   clock_drift,
   clock_step,
@@ -41,11 +43,14 @@ enum class FaultKind {
   restart,
   battery_drop,
   battery_unknown,
+  disk,
   // Of what people say.
   prior,
+  order,
 };
 
-/// Where it happens: a channel between processes, or a stage.
+/// Where it happens: a channel between processes, a stage, a process; what it is that is ordered,
+/// or that is wrong with the disk.
 enum class FaultPlace {
   none,
   lidar,
@@ -64,6 +69,15 @@ enum class FaultPlace {
   mapping,
   planning,
   checker,
+  executive,
+  hold,  ///< the order
+  resume,
+  return_home,
+  land,
+  abort,
+  full,  ///< the disk
+  slow,
+  cut,  ///< it loses its power in the middle of a write
 };
 
 /// One thing that goes wrong.

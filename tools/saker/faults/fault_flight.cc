@@ -8,6 +8,7 @@
 #include "tools/saker/experiment/target_figures.h"
 #include "tools/saker/faults/faulty_checker.h"
 #include "tools/saker/faults/faulty_plant.h"
+#include "tools/saker/faults/flight_files.h"
 
 namespace saker::tools {
 namespace {
@@ -96,6 +97,73 @@ class StallingStages : public autonomy::StageDelays {
   Time begin_;
 };
 
+static_assert(static_cast<int>(FaultPlace::abort) - static_cast<int>(FaultPlace::hold) ==
+              static_cast<int>(autonomy::OrderKind::abort));  // the same orders in the same order
+
+/// Gives each order of the schedule once, at its time.
+class Operator {
+ public:
+  explicit Operator(const FaultSchedule& schedule) : schedule_(schedule) {}
+
+  /// Nobody is told anything before.
+  void speak_to(autonomy::MissionLockstep* mission) { mission_ = mission; }
+
+  void step(double t_s) {
+    if (mission_ == nullptr) return;
+    for (; next_ < schedule_.size() && schedule_[next_].at_s <= t_s; ++next_) {
+      const Fault& fault = schedule_[next_];
+      if (fault.kind != FaultKind::order) continue;
+      const int kind = static_cast<int>(fault.place) - static_cast<int>(FaultPlace::hold);
+      mission_->give(
+          {static_cast<std::int64_t>(next_) + 1, static_cast<autonomy::OrderKind>(kind)});
+    }
+  }
+
+ private:
+  const FaultSchedule& schedule_;  // in the order of time
+  autonomy::MissionLockstep* mission_ = nullptr;
+  std::size_t next_ = 0;
+};
+
+/// Hands on what the mission says: to who watches it, and onto the disk.
+class Listener : public autonomy::MissionObserver {
+ public:
+  Listener(FlightWatch& watch, FlightFiles& files, Time begin)
+      : watch_(watch), files_(files), begin_(begin) {}
+
+  void on_scan(const autonomy::IngestedScan& scan) override { watch_.on_scan(scan); }
+  void on_map(const autonomy::MapSnapshot& map) override {
+    for (const std::string& torn : files_.write(to_seconds(map.stamp - begin_), map.map))
+      watch_.on_torn_file(torn);
+  }
+  void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override {
+    watch_.on_plan(report, plan);
+  }
+  void on_event(const autonomy::MissionEvent& event) override { watch_.on_event(event); }
+  void on_reply(const autonomy::OrderReply& reply) override { watch_.on_reply(reply); }
+
+ private:
+  FlightWatch& watch_;
+  FlightFiles& files_;
+  Time begin_;
+};
+
+/// When the executive goes: one that is started again in the air does not fly.
+double gone_s(const FaultFlight& flight) {
+  double first_s = flight.most_s;
+  for (const Fault& fault : flight.schedule) {
+    const bool gone = fault.kind == FaultKind::restart && fault.place == FaultPlace::executive;
+    if (gone) first_s = std::min(first_s, fault.at_s);
+  }
+  return first_s;
+}
+
+/// Nobody tells it anything any more.
+void fly_alone(FaultyPlant& plant, FlightWatch& watch, Time end) {
+  watch.on_executive_gone(plant.now());
+  for (Time now = plant.now(); now < end;) plant.step_to(now += kNanosecondsPerSecond / 100);
+}
+
 Json breach_list(const std::vector<Breach>& breaches) {
   Json list = Json::array();
   for (const Breach& breach : breaches) {
@@ -116,6 +184,25 @@ Json event_list(const std::vector<autonomy::MissionEvent>& events, Time begin) {
   return list;
 }
 
+/// All but what was seen of it.
+Json record_of(const FaultFlight& flight, const autonomy::MissionResult& result,
+               const simulation::VehicleTruth& truth, const FlightFiles& files) {
+  return {{"scenario", flight.scenario},
+          {"seed", flight.seed},
+          {"most_s", flight.most_s},
+          {"schedule", to_json(flight.schedule)},
+          {"breaches", Json::array()},
+          {"phase", to_string(result.phase)},
+          {"outcome", to_string(result.outcome)},
+          {"succeeded", result.succeeded},
+          {"collisions", truth.collisions},
+          {"min_clearance_m", number(truth.min_clearance_m)},
+          {"flight_time_s", truth.flight_time_s},
+          {"scans_not_registered", result.counters.scans_not_registered},
+          {"files_written", files.written()},
+          {"files_failed", files.failed()}};
+}
+
 }  // namespace
 
 FaultOutcome fly_with_faults(const FaultFlight& flight) {
@@ -124,36 +211,35 @@ FaultOutcome fly_with_faults(const FaultFlight& flight) {
   const Time begin = vehicle.now();
   const autonomy::Config config = at_site(flight.config, flight.site, vehicle.site().fence);
   FlightWatch watch(flight.schedule, config.motion.geofence, config.motion.limits, begin);
+  FlightFiles files(flight.files, flight.schedule, config.objects);
+  Listener listener(watch, files, begin);
+  Operator orders(flight.schedule);
   FaultyPlant plant(vehicle, flight.schedule,
-                    {[&](const auto& truth, const auto& state) { watch.on_step(truth, state); },
-                     [&](const VehicleOdometry& odometry) { watch.on_odometry(odometry); }});
+                    {[&](const auto& truth, const auto& state) {
+                       watch.on_step(truth, state);
+                       orders.step(to_seconds(truth.stamp - begin));
+                     },
+                     [&](const VehicleOdometry& odometry) { watch.on_odometry(odometry); },
+                     [&](const CommandAck& ack) { watch.on_ack(ack); }});
   FaultyChecker checker(config, flight.schedule, begin);
   const StallingStages stages(flight.schedule, begin);
   core::Timings timings;
   autonomy::MissionLockstep mission(config, vehicle.sensor(), vehicle.site().prior, plant, checker,
                                     1, timings);
   mission.delay_stages(&stages);
-  const autonomy::MissionResult result = mission.run(flight.most_s, watch);
-  const simulation::VehicleTruth truth = vehicle.truth();
+  orders.speak_to(&mission);
+  const double alone_s = gone_s(flight);
+  const autonomy::MissionResult result = mission.run(alone_s, listener);
+  if (alone_s < flight.most_s && result.phase != autonomy::MissionPhase::done)
+    fly_alone(plant, watch, begin + from_seconds(flight.most_s));
 
-  FaultOutcome outcome{watch.breaches(), {}, watch.digest()};
-  outcome.record = {
-      {"scenario", flight.scenario},
-      {"seed", flight.seed},
-      {"most_s", flight.most_s},
-      {"schedule", to_json(flight.schedule)},
-      {"breaches", breach_list(outcome.breaches)},
-      {"phase", to_string(result.phase)},
-      {"outcome", to_string(result.outcome)},
-      {"succeeded", result.succeeded},
-      {"collisions", truth.collisions},
-      {"min_clearance_m", number(truth.min_clearance_m)},
-      {"flight_time_s", truth.flight_time_s},
-      {"scans_not_registered", result.counters.scans_not_registered},
-      {"events", event_list(watch.events(), begin)},
-      {"digest", outcome.digest},
-      {"wall_s",
-       std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count()}};
+  FaultOutcome outcome{watch.breaches(), record_of(flight, result, vehicle.truth(), files),
+                       watch.digest()};
+  outcome.record["breaches"] = breach_list(outcome.breaches);
+  outcome.record["events"] = event_list(watch.events(), begin);
+  outcome.record["digest"] = outcome.digest;
+  outcome.record["wall_s"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
   return outcome;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct FaultFlight {
   std::uint64_t seed = 1;  ///< of world and vehicle
   double most_s = 0;       ///< it is looked at for so long
   FaultSchedule schedule;
+  std::filesystem::path
+      files;  ///< folder for what it writes meanwhile; made, and removed at its end
 };
 
 /// What came of it.

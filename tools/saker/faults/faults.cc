@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -72,9 +73,10 @@ Json with_fewest(const FaultFlight& flight, const FaultOutcome& outcome, int tri
 }
 
 /// The record of one flight, from OUT where it is there.
-Json flown(const FaultFlight& flight, const fs::path& out, int tries) {
+Json flown(FaultFlight flight, const fs::path& out, int tries) {
   const fs::path file = out / fmt::format("{:06}.json", flight.seed);
   if (fs::exists(file)) return read_record(file);
+  flight.files = out / fmt::format("{:06}.files", flight.seed);
   const FaultOutcome outcome = fly_with_faults(flight);
   core::write_file(file, outcome.record.dump(1) + "\n");
   if (outcome.breaches.empty() || tries == 0) return outcome.record;
@@ -168,6 +170,7 @@ int replay(const FaultsOptions& options, const CommonOptions& common) {
   } catch (const Json::exception& error) {
     throw Error(fmt::format("{}: no record of a flight: {}", options.replay, error.what()));
   }
+  flight.files = fs::temp_directory_path() / fmt::format("saker_faults_{}", ::getpid());
   const FaultOutcome outcome = fly_with_faults(flight);
   std::cout << outcome.record.dump(1) << "\n";
   const bool same = outcome.digest == record.at("digest").get<std::string>();

@@ -39,11 +39,17 @@ void FaultyPlant::step_to(Time time) {
     state_ = *state;
     states_.put(t_s, told(*state));
   }
-  for (CommandAck& ack : plant_.take_acks()) acks_.put(t_s, std::move(ack));
+  for (CommandAck& ack : plant_.take_acks()) {
+    ears_.ack(ack);
+    acks_.put(t_s, std::move(ack));
+  }
   for (autonomy::SensorPacket& packet : plant_.take_packets()) {
-    const bool imu = lidar::is_imu_packet(packet.payload);
+    auto& line = lidar::is_imu_packet(packet.payload) ? imu_ : lidar_;
     packet_faults_.apply(t_s, packet.payload);
-    (imu ? imu_ : lidar_).put(t_s, std::move(packet));
+    for (auto& other : packet_faults_.company(t_s, packet.payload)) {
+      line.put(t_s, {packet.received, std::move(other)});
+    }
+    line.put(t_s, std::move(packet));
   }
   ears_.step(vehicle_.truth(), state_);
 }

@@ -14,10 +14,12 @@ namespace saker::tools {
 /// lost, late, there twice, stuck or nonsense, as the schedule says.
 class FaultyPlant : public autonomy::SteppedPlant {
  public:
-  /// Hears the vehicle's own truth and state at each step of 10 ms, and odometry as it was sent.
+  /// Hears the vehicle's own truth and state at each step of 10 ms, odometry as it was sent, and
+  /// what the flight controller answered.
   struct Ears {
     std::function<void(const simulation::VehicleTruth&, const VehicleState&)> step;
     std::function<void(const VehicleOdometry&)> odometry;
+    std::function<void(const CommandAck&)> ack;
   };
 
   /// `vehicle` and `schedule` have to outlive this.

@@ -49,8 +49,8 @@ double largest_variance(const Matrix6d& covariance) {
 }  // namespace
 
 const char* to_string(Invariant invariant) {
-  constexpr std::array kNames = {"no_collision",    "at_rest",    "in_fence",
-                                 "honest_odometry", "cause_said", "bounded_memory"};
+  constexpr std::array kNames = {"no_collision", "at_rest",        "in_fence",   "honest_odometry",
+                                 "cause_said",   "bounded_memory", "whole_files"};
   return kNames[static_cast<std::size_t>(invariant)];
 }
 
@@ -104,7 +104,9 @@ bool FlightWatch::unavoidable(const simulation::VehicleTruth& truth,
                               const VehicleState& state) const {
   const double speed = truth.velocity.head<2>().norm();
   if (came_into_the_way()) return true;
-  if (state.mode == VehicleMode::descend && speed < kBlindDescent_mps) return true;
+  const bool blind = state.mode == VehicleMode::descend ||
+                     (aborted_ && (state.mode == VehicleMode::land || !state.armed));
+  if (blind && speed < kBlindDescent_mps) return true;
   return blown();
 }
 
@@ -144,6 +146,39 @@ void FlightWatch::on_event(const autonomy::MissionEvent& event) {
     must_rest_s_ = to_seconds(event.stamp - begin_);
   }
 }
+
+void FlightWatch::refused(bool cause_known, const char* what) {
+  if (!cause_known) broken(Invariant::cause_said, fmt::format("{} refused without a cause", what));
+}
+
+void FlightWatch::on_scan(const autonomy::IngestedScan& scan) {
+  const bool registered = scan.status == odometry::OdometryStatus::ok;
+  refused(registered || scan.reason != odometry::OdometryReason::none, "a scan");
+}
+
+void FlightWatch::on_plan(const autonomy::PlanningReport& report,
+                          const active::ActivePlan& /*plan*/) {
+  using enum autonomy::PlanningStatus;
+  const bool no_way = report.status == refused || report.status == gave_up ||
+                      report.status == nothing_reachable || report.status == home_unreachable;
+  FlightWatch::refused(!no_way || !report.text.empty(), "a plan");
+}
+
+void FlightWatch::on_reply(const autonomy::OrderReply& reply) {
+  const bool accepted = reply.state == autonomy::OrderState::accepted;
+  aborted_ = aborted_ || (accepted && reply.order.kind == autonomy::OrderKind::abort);
+  refused(reply.state != autonomy::OrderState::refused || !reply.text.empty(), "an order");
+}
+
+void FlightWatch::on_ack(const CommandAck& ack) {
+  refused(ack.accepted || !ack.reason.empty(), "a command");
+}
+
+void FlightWatch::on_executive_gone(Time now) {
+  if (truth_.airborne) must_rest_s_ = to_seconds(now - begin_);
+}
+
+void FlightWatch::on_torn_file(const std::string& what) { broken(Invariant::whole_files, what); }
 
 void FlightWatch::watch_rest(const simulation::VehicleTruth& truth, const VehicleState& state) {
   if (std::isnan(must_rest_s_)) return;

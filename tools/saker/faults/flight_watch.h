@@ -19,8 +19,9 @@ enum class Invariant {
   at_rest,          ///< 2 s after the ladder said hold or land: at rest, or coming down
   in_fence,         ///< never outside by more than it takes to brake
   honest_odometry,  ///< status ok means: off by no more than it states
-  cause_said,       ///< nothing is ended or held without a cause in words
+  cause_said,       ///< nothing is ended, held or refused without a cause in words
   bounded_memory,
+  whole_files,  ///< what is on the disk is whole: the newest that could be written
 };
 
 [[nodiscard]] const char* to_string(Invariant invariant);
@@ -43,7 +44,8 @@ struct Breach {
 /// second before (it is pushed then);
 /// where a thing appeared within the distance that it takes to see it, think and brake; where the
 /// vehicle came down without a pose, which the flight controller does where it is, at less than
-/// 0.8 m/s over ground; and where a gust of more than 5 m/s blew within the last second.
+/// 0.8 m/s over ground, or by an order to abort, which looks for no place; and where a gust of more
+/// than 5 m/s blew within the last second.
 class FlightWatch : public autonomy::MissionObserver {
  public:
   /// `schedule` has to outlive this. \param begin of the mission
@@ -53,6 +55,13 @@ class FlightWatch : public autonomy::MissionObserver {
   void on_step(const simulation::VehicleTruth& truth, const VehicleState& state);
   void on_odometry(const VehicleOdometry& odometry);
   void on_event(const autonomy::MissionEvent& event) override;
+  void on_scan(const autonomy::IngestedScan& scan) override;
+  void on_plan(const autonomy::PlanningReport& report, const active::ActivePlan& plan) override;
+  void on_reply(const autonomy::OrderReply& reply) override;
+  void on_ack(const CommandAck& ack);
+  /// The executive is gone from now on: what flies holds, then comes down by itself.
+  void on_executive_gone(Time now);
+  void on_torn_file(const std::string& what);
 
   [[nodiscard]] std::vector<Breach> breaches() const;
   [[nodiscard]] const std::vector<autonomy::MissionEvent>& events() const { return events_; }
@@ -78,6 +87,7 @@ class FlightWatch : public autonomy::MissionObserver {
   [[nodiscard]] bool came_into_the_way() const;
   [[nodiscard]] bool blown() const;
   void broken(Invariant invariant, std::string text);
+  void refused(bool cause_known, const char* what);
 
   const FaultSchedule& schedule_;
   motion::Geofence fence_;
@@ -86,6 +96,7 @@ class FlightWatch : public autonomy::MissionObserver {
   double now_s_ = 0;
   simulation::VehicleTruth truth_;
   int collisions_ = 0;
+  bool aborted_ = false;         // by an order that was accepted
   std::deque<double> speeds_;    // m/s over ground, of the last second
   double must_rest_s_ = NAN;     // when it was said
   double without_pose_s_ = NAN;  // since when it comes down by itself

@@ -117,4 +117,39 @@ void PacketFaults::spoil(lidar::Column& column, const Fault* dead, const Fault* 
   }
 }
 
+std::vector<std::vector<std::uint8_t>> PacketFaults::company(
+    double t_s, const std::vector<std::uint8_t>& payload) {
+  const FaultPlace place = lidar::is_imu_packet(payload) ? FaultPlace::imu : FaultPlace::lidar;
+  std::vector<std::vector<std::uint8_t>> others;
+  if (const Fault* fault = acting(schedule_, FaultKind::forge, place, t_s)) {
+    others.push_back(forged(payload, from_seconds(fault->strength)));
+  }
+  if (const Fault* fault = acting(schedule_, FaultKind::flood, place, t_s)) {
+    others.resize(others.size() + static_cast<std::size_t>(fault->strength), payload);
+  }
+  return others;
+}
+
+/// From who knows the sensor, but not its time and frame.
+std::vector<std::uint8_t> PacketFaults::forged(const std::vector<std::uint8_t>& payload,
+                                               Time ahead) {
+  constexpr int kFrames = 65536;
+  if (lidar::is_imu_packet(payload)) {
+    std::vector<lidar::ImuSample> samples = lidar::decode_imu(payload, sensor_);
+    if (samples.size() != 1) return payload;
+    samples.front().stamp += ahead;
+    samples.front().acceleration.setConstant(rng_.uniform(-20, 20));
+    return lidar::encode_imu(samples.front(), sensor_);
+  }
+  if (payload.size() != format_.packet_bytes()) return payload;
+  std::vector<lidar::Column> columns;
+  const int frame = rng_.index(kFrames);
+  for (int i = 0; i < format_.columns_per_packet(); ++i) {
+    columns.push_back(format_.column(payload, i));
+    columns.back().time += ahead;
+    columns.back().frame_id = frame;
+  }
+  return format_.encode(columns);
+}
+
 }  // namespace saker::tools

@@ -9,6 +9,7 @@
 #include "tools/saker/configuration.h"
 #include "tools/saker/flight_report/flight_figures.h"
 #include "tools/saker/picture/map_picture.h"
+#include "tools/saker/report/html_report.h"
 
 namespace saker::tools {
 namespace {
@@ -57,7 +58,8 @@ void draw(const fs::path& file, const FlownMission& flight, const objects::Class
 }
 
 int report(const ReportOptions& options, const CommonOptions& common) {
-  const objects::ClassTable table = read_configuration(common).autonomy.objects;
+  const flight::ProcessConfig config = read_configuration(common);
+  const objects::ClassTable& table = config.autonomy.objects;
   const FlownMission flight = read_flight(options, table);
   const OutputFolder out(common);
   const Json figures = flight_figures(flight, table);
@@ -66,7 +68,8 @@ int report(const ReportOptions& options, const CommonOptions& common) {
   draw(out / "map.png", flight, table);
   core::write_file(out / "report.txt", text);
   core::write_file(out / "results.json", figures.dump(2) + "\n");
-  std::cout << text;
+  std::cout << text << std::flush;
+  leave_html_report(out.path(), "Mission flown in real time", config);
   return shortfalls.empty() ? 0 : 1;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "saker/core/error.h"
 #include "saker/objects/comparison.h"
@@ -32,6 +33,18 @@ struct MapOptions {
 
 objects::ClassTable classes(const CommonOptions& common) {
   return read_configuration(common).autonomy.objects;
+}
+
+/// As site.origin has it: latitude, longitude and, where it is not 90, heading of x.
+std::optional<objects::GeoOrigin> origin_of(const std::vector<double>& site) {
+  if (site.empty()) return std::nullopt;
+  if (site.size() != 2 && site.size() != 3) {
+    throw Error(fmt::format("site.origin: {} numbers, expected latitude, longitude and heading",
+                            site.size()));
+  }
+  objects::GeoOrigin origin{.latitude_deg = site[0], .longitude_deg = site[1]};
+  if (site.size() == 3) origin.heading_deg = site[2];
+  return origin;
 }
 
 /// One line on stderr where parts of the file could not be read. \return the exit status
@@ -102,8 +115,8 @@ objects::Region region_of(const MapOptions& options) {
                           fmt::join(options.region, ",")));
 }
 
-objects::MapFormat format_of(const MapOptions& options) {
-  objects::MapFormat format;
+objects::MapFormat format_of(const MapOptions& options, const std::vector<double>& site) {
+  objects::MapFormat format{.origin = origin_of(site)};
   if (options.compact) format.content = objects::SmapContent::geometry;
   if (!options.origin.empty()) {
     format.origin = {options.origin[0], options.origin[1], options.heading_deg};
@@ -112,10 +125,11 @@ objects::MapFormat format_of(const MapOptions& options) {
 }
 
 int convert(const MapOptions& options, const CommonOptions& common) {
-  const objects::ClassTable table = classes(common);
+  const flight::ProcessConfig config = read_configuration(common);
+  const objects::ClassTable& table = config.autonomy.objects;
   const objects::MapRead read = objects::read_map_part(options.first, table, region_of(options));
   objects::write_map(output_file(options.second, options.force), read.map, table,
-                     format_of(options));
+                     format_of(options, config.site.origin));
   return tell_damage("saker map convert", read.damage);
 }
 
@@ -203,12 +217,14 @@ void add_conversion(CLI::App& app, MapOptions& options) {
                "a .smap without identities, covariances and history: places within 1.8 cm, sizes "
                "1.5 cm, radii 0.5 cm, headings 0.5 degrees");
   CLI::Option* origin =
-      app.add_option("--origin", options.origin,
-                     "LAT,LON: of the map's origin, degrees (WGS 84); a .geojson needs it")
+      app.add_option(
+             "--origin", options.origin,
+             "LAT,LON: of the map's origin, degrees (WGS 84), for a .geojson or .kml; without "
+             "it site.origin")
           ->delimiter(',')
           ->expected(2);
   app.add_option("--heading", options.heading_deg,
-                 "of the map's x axis for a .geojson, degrees clockwise from north; 90: x is east")
+                 "of the map's x axis with --origin, degrees clockwise from north; 90: x is east")
       ->needs(origin)
       ->capture_default_str();
   app.add_flag("--force", options.force, "replace a file that is there");
@@ -230,14 +246,14 @@ void add_map(Commands& commands) {
                    [options](const CommonOptions& common) { return info(*options, common); });
   info_app.add_option("MAP", options->first, "map (.json or .smap)")->required();
 
-  CLI::App& convert_app =
-      commands.add(group,
-                   {.name = "convert",
-                    .does = "a .json or .smap into one of them or into .csv, .geojson or .ply; "
-                            "the ending decides",
-                    .output = Output::none,
-                    .example = "saker map convert out/map.smap map.json"},
-                   [options](const CommonOptions& common) { return convert(*options, common); });
+  CLI::App& convert_app = commands.add(
+      group,
+      {.name = "convert",
+       .does = "a .json or .smap into one of them or into .csv, .geojson, .kml or .ply; "
+               "the ending decides",
+       .output = Output::none,
+       .example = "saker map convert out/map.smap map.json"},
+      [options](const CommonOptions& common) { return convert(*options, common); });
   convert_app.add_option("A", options->first, "map to read")->required();
   convert_app.add_option("B", options->second, "file to write")->required();
   add_conversion(convert_app, *options);

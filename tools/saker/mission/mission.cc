@@ -11,6 +11,7 @@
 #include "tools/saker/mission/team_flights.h"
 #include "tools/saker/mission/team_report.h"
 #include "tools/saker/mission/team_table.h"
+#include "tools/saker/report/html_report.h"
 
 namespace saker::tools {
 namespace {
@@ -94,6 +95,27 @@ Json fly_run(const TeamMission& mission, const Run& run) {
   return results;
 }
 
+/// A page of each robot, of each seed, and of all.
+void leave_reports(const TeamMission& mission, const std::vector<Run>& runs,
+                   const CommonOptions& common) {
+  flight::ProcessConfig config = read_configuration(common);
+  config.autonomy = mission.base;
+  for (const Run& run : runs) {
+    for (std::size_t i = 0; i < mission.robots.size(); ++i) {
+      const std::string& robot = mission.config.robots[i].name;
+      flight::ProcessConfig own = config;
+      own.autonomy = mission.robots[i];
+      write_html_report(
+          run.folder / robot,
+          fmt::format("Mission {}, seed {}, robot {}", mission.name, run.common.seed, robot), own);
+    }
+    if (runs.size() > 1)
+      write_html_report(run.folder,
+                        fmt::format("Mission {}, seed {}", mission.name, run.common.seed), config);
+  }
+  leave_html_report(common.out, "Mission " + mission.name, config);
+}
+
 /// Leaves the table of all seeds; \return what is printed.
 std::string written_table(const std::vector<Json>& results, const fs::path& out) {
   if (results.size() == 1) return team_table(results.front());
@@ -120,7 +142,8 @@ int fly_team(const std::string& file, int runs, const CommonOptions& common) {
     results.push_back(fly_run(mission, run));
     good = all_good(results.back()) && good;
   }
-  std::cout << written_table(results, out.path());
+  std::cout << written_table(results, out.path()) << std::flush;
+  leave_reports(mission, all, common);
   return good ? 0 : 1;
 }
 

@@ -17,11 +17,13 @@
 #include "tools/saker/command.h"
 #include "tools/saker/configuration.h"
 #include "tools/saker/picture/map_picture.h"
+#include "tools/saker/record/run_recording.h"
 #include "tools/saker/recording_input.h"
 #include "tools/saker/replay/network_fit.h"
 #include "tools/saker/replay/run_recorder.h"
 #include "tools/saker/replay/shortfalls.h"
 #include "tools/saker/replay/trajectory_truth.h"
+#include "tools/saker/report/html_report.h"
 
 namespace saker::tools {
 namespace {
@@ -30,6 +32,7 @@ struct ReplayOptions {
   RecordingInput input;
   std::string format = "auto";
   std::string truth;
+  std::string record;
 };
 
 const std::map<std::string, lidar::RecordingFormat> kFormats = {
@@ -47,21 +50,28 @@ std::unique_ptr<lidar::ScanSource> open_input(const ReplayOptions& options) {
   return input.open();
 }
 
-/// Passes frames on, shows progress and times the reading.
+/// Passes frames on, shows progress, times the reading and records scans.
 class WatchedSource : public lidar::ScanSource {
  public:
-  WatchedSource(lidar::ScanSource& source, core::Timings& timings)
-      : source_(source), timings_(timings), progress_("replay", source.expected_scans()) {}
+  /// \param recording  may be null
+  WatchedSource(lidar::ScanSource& source, core::Timings& timings, RunRecording* recording)
+      : source_(source),
+        timings_(timings),
+        recording_(recording),
+        progress_("replay", source.expected_scans()) {}
 
   std::optional<lidar::Frame> next() override {
     progress_.update(frames_++);
-    return timings_.time("read", [&] { return source_.next(); });
+    auto frame = timings_.time("read", [&] { return source_.next(); });
+    if (frame && recording_ != nullptr) recording_->add(frame->scan);
+    return frame;
   }
   [[nodiscard]] lidar::SourceCounters counters() const override { return source_.counters(); }
 
  private:
   lidar::ScanSource& source_;
   core::Timings& timings_;
+  RunRecording* recording_;
   core::Progress progress_;
   long frames_ = 0;
 };
@@ -161,31 +171,73 @@ void report(const nlohmann::json& results) {
   }
 }
 
+/// A run that is over, and its folder.
+struct LeftBehind {
+  std::filesystem::path out;
+  const flight::ProcessConfig& config;
+  const autonomy::LockstepResult& result;
+  const RunRecorder& recorder;
+  const std::optional<Truth>& truth;
+};
+
+/// Everything of it that is drawn.
+void draw(const LeftBehind& run) {
+  write_map_picture(run.out / "map.png",
+                    {.map = run.result.map,
+                     .truth = run.truth ? &run.truth->map : nullptr,
+                     .trajectory = positions(run.result.T_world_lidar),
+                     .cloud = run.recorder.cloud().in_world(run.result.T_world_lidar),
+                     .tentative = run.result.tentative},
+                    run.config.autonomy.objects);
+}
+
+void finish_recording(RunRecording& recording, const LeftBehind& run) {
+  std::vector<Time> stamps;
+  for (const autonomy::ScanRecord& scan : run.result.scans) stamps.push_back(scan.stamp);
+  recording.finish(run.out, flight::viewers::site_of(run.config.autonomy, run.config.site.origin),
+                   run.recorder.cloud().scans(stamps, run.result.T_world_lidar));
+}
+
+/// A warning where the network was not made for such a recording.
+void say_fit(const autonomy::SegmentationFit& fit, const autonomy::Config& config) {
+  const auto network = core::find_in_configs(config.segmentation.model, "segmentation.model");
+  const std::string note =
+      network_fit_note(fit, std::filesystem::path(network).replace_extension(".yaml"));
+  if (!note.empty()) spdlog::warn("{}", note);
+}
+
+/// "drive" of "data/drive/".
+std::string name_of(const std::string& path) {
+  const auto whole = std::filesystem::absolute(path).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 int replay(const ReplayOptions& options, const CommonOptions& common) {
-  const autonomy::Config config = read_configuration(common).autonomy;
+  const flight::ProcessConfig process = read_configuration(common);
+  const autonomy::Config& config = process.autonomy;
+  const auto record = record_file(options.record, common.force);
   const auto source = open_input(options);
   std::optional<Truth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth, config.objects);
   core::Timings timings;
   autonomy::Lockstep lockstep(config, common.threads, timings);
   const OutputFolder out(common);
+  std::optional<RunRecording> recording;
+  if (record) recording.emplace(*record, "R1");
   if (const std::string note = autonomy::noise_note(config, source->sensor_name()); !note.empty()) {
     spdlog::info("{}", note);
   }
 
   RunRecorder recorder(out.path(), config.objects);
   const auto start = std::chrono::steady_clock::now();
-  WatchedSource watched(*source, timings);
+  WatchedSource watched(*source, timings, recording ? &*recording : nullptr);
   const autonomy::LockstepResult result = lockstep.run(watched, recorder);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (result.scans.empty())
     throw Error(fmt::format("{}: no scan in it, expected at least one", options.input.path));
 
-  const auto network = core::find_in_configs(config.segmentation.model, "segmentation.model");
-  const std::string fit_note =
-      network_fit_note(result.fit, std::filesystem::path(network).replace_extension(".yaml"));
-  if (!fit_note.empty()) spdlog::warn("{}", fit_note);
+  say_fit(result.fit, config);
   recorder.write(result);
   nlohmann::json results = figures(result, wall, config.objects);
   results["source"] = source_figures(source->counters());
@@ -197,15 +249,12 @@ int replay(const ReplayOptions& options, const CommonOptions& common) {
         trajectory_figures(result.scans, result.T_world_lidar, truth->trajectory);
   core::write_file(out / "results.json", results.dump(2) + "\n");
   core::write_file(out / "timings.csv", timings.csv());
-  write_map_picture(out / "map.png",
-                    {.map = result.map,
-                     .truth = truth ? &truth->map : nullptr,
-                     .trajectory = positions(result.T_world_lidar),
-                     .cloud = recorder.cloud(result),
-                     .tentative = result.tentative},
-                    config.objects);
+  const LeftBehind run{out.path(), process, result, recorder, truth};
+  draw(run);
+  if (recording) finish_recording(*recording, run);
   report(results);
   for (const std::string& line : short_of) spdlog::warn("{}", line);
+  leave_html_report(out.path(), "Replay of " + name_of(options.input.path), process);
   return short_of.empty() ? 0 : 1;
 }
 
@@ -223,6 +272,9 @@ void add_replay(Commands& commands) {
   app.add_option("--format", options->format, "kitti, ouster or lcm; found out when not given")
       ->check(CLI::IsMember({"auto", "kitti", "ouster", "lcm"}));
   app.add_option("--truth", options->truth, "a truth.json: drawn into map.png, and compared with");
+  app.add_option("--record", options->record,
+                 "write scans, objects and poses into an MCAP file for viewers and saker replay")
+      ->type_name("FILE");
 }
 
 }  // namespace saker::tools

@@ -9,10 +9,6 @@
 namespace saker::tools {
 namespace {
 
-constexpr std::size_t kPointsPerScan = 400;  // enough to see walls after a few scans
-constexpr std::size_t kMostPoints =
-    1'000'000;  // 12 MB; after it the picture's background stops growing
-
 /// The map's JSON, with a list of its own for what is tentative: readers of maps pass it over.
 std::string json_with_tentative(const autonomy::LockstepResult& result,
                                 const objects::ClassTable& table) {
@@ -36,11 +32,7 @@ RunRecorder::RunRecorder(const std::filesystem::path& out, const objects::ClassT
     : out_(out), table_(table), detections_(out, table) {}
 
 void RunRecorder::on_scan(const autonomy::ScanRecord&, const odometry::OdometryEstimate& estimate) {
-  const std::size_t stride = std::max<std::size_t>(estimate.points.size() / kPointsPerScan, 1);
-  for (std::size_t i = 0; i < estimate.points.size() && cloud_.size() < kMostPoints; i += stride) {
-    if (estimate.points[i].allFinite()) cloud_.push_back({scans_, estimate.points[i]});
-  }
-  ++scans_;
+  cloud_.add(estimate.points);
 }
 
 void RunRecorder::on_detections(const objects::Detections& detections) {
@@ -59,15 +51,6 @@ void RunRecorder::write(const autonomy::LockstepResult& result) {
   core::write_file(out_ / "odometry.txt", odometry);
   core::write_file(out_ / "map.json", json_with_tentative(result, table_));
   objects::write_map(out_ / "map.smap", result.map, table_);
-}
-
-std::vector<Eigen::Vector3d> RunRecorder::cloud(const autonomy::LockstepResult& result) const {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(cloud_.size());
-  for (const SparsePoint& p : cloud_) {
-    points.emplace_back(result.T_world_lidar[p.scan] * p.in_lidar.cast<double>());
-  }
-  return points;
 }
 
 }  // namespace saker::tools

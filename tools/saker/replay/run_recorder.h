@@ -1,12 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "flight/run_files/detections_file.h"
 #include "saker/autonomy/lockstep.h"
+#include "tools/saker/replay/sparse_cloud.h"
 
 /// What a run over a recording leaves behind, as in docs/contract.md.
 namespace saker::tools {
@@ -28,21 +27,15 @@ class RunRecorder : public autonomy::LockstepObserver {
   /// Measurements of objects, in all windows.
   [[nodiscard]] int detections() const { return count_; }
 
-  /// Some points of the run in the frame of the map: what the picture shows behind the objects.
-  [[nodiscard]] std::vector<Eigen::Vector3d> cloud(const autonomy::LockstepResult& result) const;
+  /// Some points of each scan: what the picture shows behind the objects.
+  [[nodiscard]] const SparseCloud& cloud() const { return cloud_; }
 
  private:
-  struct SparsePoint {
-    std::uint32_t scan;  ///< index into LockstepResult::scans
-    Eigen::Vector3f in_lidar;
-  };
-
   std::filesystem::path out_;
   const objects::ClassTable& table_;
   flight::DetectionsWriter detections_;
   int count_ = 0;  // of detections
-  std::uint32_t scans_ = 0;
-  std::vector<SparsePoint> cloud_;
+  SparseCloud cloud_{400};
 };
 
 /// A TUM row `t x y z qx qy qz qw`.

@@ -28,18 +28,21 @@ AutopilotParameters::AutopilotParameters(Autopilot autopilot)
                 {"EKF2_EV_DELAY", {0, false}}, {"SYS_HAS_GPS", {0}},
                 {"SYS_HAS_MAG", {0}},          {"COM_RC_IN_MODE", {4}},
                 {"COM_RCL_EXCEPT", {4}},       {"COM_OF_LOSS_T", {0.5, false}},
-                {"COM_OBL_RC_ACT", {4}}};
+                {"COM_OBL_RC_ACT", {4}},       {"EKF2_EV_POS_X", {0, false}},
+                {"EKF2_EV_POS_Y", {0, false}}, {"EKF2_EV_POS_Z", {0, false}}};
     return;
   }
   // As the records of ../shared/data/mavlink were flown.
-  entries_ = {{"AHRS_EKF_TYPE", {3}},  {"EK3_ENABLE", {1}},
-              {"EK3_SRC1_POSXY", {6}}, {"EK3_SRC1_VELXY", {6}},
-              {"EK3_SRC1_POSZ", {6}},  {"EK3_SRC1_VELZ", {6}},
-              {"EK3_SRC1_YAW", {6}},   {"VISO_TYPE", {1}},
-              {"VISO_DELAY_MS", {10}}, {"GPS1_TYPE", {0}},
-              {"COMPASS_ENABLE", {0}}, {"FS_THR_ENABLE", {0}},
-              {"FS_GCS_ENABLE", {5}},  {"FS_EKF_ACTION", {1}},
-              {"SYSID_MYGCS", {255}},  {"GUID_TIMEOUT", {0.5, false}}};
+  entries_ = {{"AHRS_EKF_TYPE", {3}},     {"EK3_ENABLE", {1}},
+              {"EK3_SRC1_POSXY", {6}},    {"EK3_SRC1_VELXY", {6}},
+              {"EK3_SRC1_POSZ", {6}},     {"EK3_SRC1_VELZ", {6}},
+              {"EK3_SRC1_YAW", {6}},      {"VISO_TYPE", {1}},
+              {"VISO_DELAY_MS", {10}},    {"GPS1_TYPE", {0}},
+              {"COMPASS_ENABLE", {0}},    {"FS_THR_ENABLE", {0}},
+              {"FS_GCS_ENABLE", {5}},     {"FS_EKF_ACTION", {1}},
+              {"SYSID_MYGCS", {255}},     {"GUID_TIMEOUT", {0.5, false}},
+              {"VISO_POS_X", {0, false}}, {"VISO_POS_Y", {0, false}},
+              {"VISO_POS_Z", {0, false}}};
 }
 
 std::uint8_t AutopilotParameters::type(const Entry& entry) const {
