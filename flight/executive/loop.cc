@@ -18,7 +18,7 @@ using Steady = std::chrono::steady_clock;
 
 constexpr int kMostSilentPeriods = 10;  // as many runs that a busy machine may swallow
 constexpr Steady::duration kLeastSilence = std::chrono::seconds(1);
-constexpr Steady::duration kLook = std::chrono::milliseconds(2);  // whether it ended
+constexpr Steady::duration kEndLook = std::chrono::milliseconds(2);  // whether it ended
 
 /// steady_clock is CLOCK_MONOTONIC.
 void sleep_until(Steady::time_point time) {
@@ -60,7 +60,7 @@ bool Loop::stop(Steady::duration longest) {
   if (longest != Steady::duration::max()) {
     for (const auto end = Steady::now() + longest; running_;) {
       if (Steady::now() > end) return false;
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(kEndLook);
     }
   }
   thread_.join();

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint8_t kLocalFrd = 20, kBodyFrd = 12;              // MAV_FRAME
 constexpr std::uint8_t kVio = 3;                                   // MAV_ESTIMATOR_TYPE
 constexpr std::int8_t kGoodQuality = 100, kPredictedQuality = 50;  // %
-constexpr double kMostPlace = 1e4;                                 // m
+constexpr double kFarthest = 1e4;                                  // m
 constexpr double kMostAngularSpeed = 50;                           // rad/s
 constexpr double kMostVariance = 1e6;
 
@@ -20,7 +20,7 @@ bool in_range(const VehicleOdometry& o, double most_speed) {
     return v.allFinite() && v.cwiseAbs().maxCoeff() <= most;
   };
   return o.stamp > 0 && o.T_odom_body.matrix().allFinite() &&
-         within(o.T_odom_body.translation(), kMostPlace) && within(o.velocity, most_speed) &&
+         within(o.T_odom_body.translation(), kFarthest) && within(o.velocity, most_speed) &&
          within(o.angular_velocity, kMostAngularSpeed) && within(o.covariance, kMostVariance);
 }
 

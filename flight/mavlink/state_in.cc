@@ -16,7 +16,7 @@ constexpr std::uint8_t kLastLanded = 4;
 constexpr std::uint16_t kNoCell = 0xFFFF;    // mV
 constexpr std::uint16_t kHasPlace = 8 | 16;  // estimator: horizontal place, relative or absolute
 constexpr int kWarning = 4;
-constexpr double kMostPlace = 1e5;  // m
+constexpr double kMostPosition = 1e5;  // m
 
 const char* name_of(std::uint8_t heartbeat_kind) {
   return heartbeat_kind == 3 ? "ardupilot" : heartbeat_kind == 12 ? "px4" : "another";
@@ -118,7 +118,7 @@ void StateIn::hear(const LocalPositionNed& message) {
   const Eigen::Vector3d position =
       flipped(Eigen::Vector3d(static_cast<double>(message.x), static_cast<double>(message.y),
                               static_cast<double>(message.z)));
-  if (position.allFinite() && position.norm() < kMostPlace) state_.position = position;
+  if (position.allFinite() && position.norm() < kMostPosition) state_.position = position;
 }
 
 void StateIn::hear(const Statustext& message) {

@@ -11,21 +11,21 @@ namespace saker::exchange {
 namespace {
 
 /// Two kinds of messages, each of three numbers.
-struct Message {
+struct CodedMessage {
   bool far = false;
   std::int64_t x = 0;
   std::uint8_t kind = 0;
   std::uint64_t count = 0;
 };
 
-Message some_message(core::Rng& rng) {
+CodedMessage some_message(core::Rng& rng) {
   const bool far = rng.chance(0.5);
   return {far, std::lround(rng.normal(0, far ? 1e6 : 3)),
           static_cast<std::uint8_t>(rng.chance(0.9) ? 7 : rng.index(256)),
           static_cast<std::uint64_t>(rng.index(3))};
 }
 
-std::string coded(const Message& message, Statistics& statistics) {
+std::string coded(const CodedMessage& message, Statistics& statistics) {
   CodedWriter out(statistics);
   out.part(message.far ? 1 : 0);
   out.signed_varint(message.x);
@@ -38,7 +38,7 @@ TEST(Coded, MessageAfterMessageIsReadAsItWasWritten) {
   core::Rng rng(1);
   Statistics writers, readers;
   for (int i = 0; i < 20'000; ++i) {
-    const Message message = some_message(rng);
+    const CodedMessage message = some_message(rng);
     const std::string bytes = coded(message, writers);
     CodedReader in(bytes, readers);
     in.part(message.far ? 1 : 0);

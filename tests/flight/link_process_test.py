@@ -178,7 +178,7 @@ class Attackers(RadioTest):
         self.assertGreater(len(datagrams), 40)
         self.assertEqual({port for source, _, port, _ in datagrams if source == ROBOT}, {PORT})
         self.assertEqual({(source, to) for source, to, _, _ in datagrams}, {(ROBOT, GROUND), (GROUND, ROBOT)})
-        words = [suffix.encode() for suffix in ALL] + [b"R1_", b"LC02", b"LC03", b"history", bytes.fromhex(SECRET)]
+        words = [b"R1" + suffix.encode() for suffix in ALL] + [b"LC02", b"LC03", b"history", bytes.fromhex(SECRET)]
         words += [self.held_by("R1")["R1_history_1"][at:at + 8] for at in range(0, 20_000, 1000)]
         self.assertEqual([word for word in words if word in file], [])
 

@@ -70,7 +70,7 @@ WindowResult result_of(const Box& box, const std::vector<const objects::Cuboid*>
 }
 
 /// A figure of nothing is null.
-nlohmann::ordered_json number(double value) {
+nlohmann::ordered_json rounded_or_null(double value) {
   if (!std::isfinite(value)) return nullptr;
   return std::nearbyint(value * 1e4) / 1e4;
 }
@@ -90,15 +90,15 @@ struct Sums {
   }
 
   [[nodiscard]] nlohmann::ordered_json json() const {
-    return {
-        {"labelled", labelled},
-        {"measured", length.size()},
-        {"length_mae_m", number(core::mean_absolute(length))},
-        {"width_mae_m", number(core::mean_absolute(width))},
-        {"size_mae_m", number(0.5 * (core::mean_absolute(length) + core::mean_absolute(width)))},
-        {"length_bias_m", number(core::mean(length))},
-        {"width_bias_m", number(core::mean(width))},
-        {"box_size_mae_m", number(core::mean_absolute(of_box))}};
+    return {{"labelled", labelled},
+            {"measured", length.size()},
+            {"length_mae_m", rounded_or_null(core::mean_absolute(length))},
+            {"width_mae_m", rounded_or_null(core::mean_absolute(width))},
+            {"size_mae_m",
+             rounded_or_null(0.5 * (core::mean_absolute(length) + core::mean_absolute(width)))},
+            {"length_bias_m", rounded_or_null(core::mean(length))},
+            {"width_bias_m", rounded_or_null(core::mean(width))},
+            {"box_size_mae_m", rounded_or_null(core::mean_absolute(of_box))}};
   }
 };
 

@@ -21,7 +21,7 @@ constexpr double kLorryHeight_m = 3.8, kLorryWidth_m = 2.5;
 constexpr double kPersonHeight_m = 1.8, kPersonWidth_m = 0.5;
 constexpr double kComesFrom_m = 12;  // a person, a lorry: in sight before it is there
 
-ScenarioEvent gust(const Fault& fault) {
+ScenarioEvent gust_event(const Fault& fault) {
   ScenarioEvent event;
   event.kind = ScenarioEventKind::gust;
   event.gust_mps = fault.strength;
@@ -30,7 +30,7 @@ ScenarioEvent gust(const Fault& fault) {
   return event;
 }
 
-ScenarioEvent wall(const Fault& fault) {
+ScenarioEvent wall_event(const Fault& fault) {
   ScenarioEvent event;
   event.kind = ScenarioEventKind::obstacle;
   event.ahead_m = fault.strength;
@@ -51,9 +51,9 @@ ScenarioEvent mover(const Fault& fault, double height_m, double width_m) {
 /// What the world and the air do.
 void add_event(const Fault& fault, std::vector<ScenarioEvent>& events) {
   if (fault.kind == FaultKind::gust)
-    events.push_back(gust(fault));
+    events.push_back(gust_event(fault));
   else if (fault.kind == FaultKind::wall)
-    events.push_back(wall(fault));
+    events.push_back(wall_event(fault));
   else if (fault.kind == FaultKind::person)
     events.push_back(mover(fault, kPersonHeight_m, kPersonWidth_m));
   else if (fault.kind == FaultKind::lorry)

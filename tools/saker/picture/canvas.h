@@ -27,6 +27,8 @@ struct Page {
   int view_width = 0, view_height = 0;
 };
 
+inline constexpr double kTitlePx = 18;  // the height of a title's letters
+
 enum class Anchor { left, middle, right };
 
 struct TextStyle {

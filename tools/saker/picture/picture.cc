@@ -11,7 +11,7 @@ namespace saker::tools {
 namespace {
 
 constexpr int kMarginPx = 24;
-constexpr int kTitlePx = 56;
+constexpr int kHeadPx = 56;
 constexpr int kLegendPx = 64;
 constexpr int kAxisLeftPx = 40;      // room for the numbers of y
 constexpr int kAxisBelowPx = 36;     // for those of x, and its name
@@ -44,7 +44,7 @@ std::vector<double> multiples(double step, double low, double high) {
 Page page_of(const Eigen::Vector2d& size, double px_per_m, Axes axes) {
   Page page;
   page.view_left = kMarginPx + (axes == Axes::metres ? kAxisLeftPx : 0);
-  page.view_top = kTitlePx + kMarginPx;
+  page.view_top = kHeadPx + kMarginPx;
   page.view_width = static_cast<int>(std::ceil(size.x() * px_per_m));
   page.view_height = static_cast<int>(std::ceil(size.y() * px_per_m));
   page.width = std::max(page.view_left + page.view_width + kMarginPx, kLeastWidthPx);
@@ -153,7 +153,7 @@ void Picture::text(const Eigen::Vector2d& at, const std::string& text, Colour co
 }
 
 void Picture::title(const std::string& text) {
-  on_all(false, [&](Canvas& canvas) { canvas.title({page_.view_left, kTitlePx - 16}, text); });
+  on_all(false, [&](Canvas& canvas) { canvas.title({page_.view_left, kHeadPx - 16}, text); });
 }
 
 void Picture::draw_axes() {

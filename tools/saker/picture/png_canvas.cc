@@ -12,7 +12,6 @@ namespace {
 constexpr int kShift = 4;               // OpenCV draws at 1/16 px
 constexpr double kFarPx = 20000;        // beyond, OpenCV's fixed point would overflow
 constexpr double kPxPerTextScale = 26;  // of letters as high as those of a font of this size
-constexpr double kTitlePx = 18;
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 
 cv::Scalar bgr(Colour c) { return {double(c.blue), double(c.green), double(c.red)}; }

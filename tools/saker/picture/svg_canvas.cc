@@ -10,7 +10,6 @@
 namespace saker::tools {
 namespace {
 
-constexpr double kTitlePx = 18;
 constexpr double kNearPx = 0.25;  // of a line's corners nothing is seen below
 
 std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }

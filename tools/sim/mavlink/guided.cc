@@ -14,7 +14,7 @@ using namespace flight::mavlink;
 // POSITION_TARGET_TYPEMASK: what is ignored.
 constexpr std::uint16_t kNoPlace = 0x7, kNoVelocity = 0x38, kNoAcceleration = 0x1C0, kNoYaw = 0x400,
                         kNoYawRate = 0x800;
-constexpr std::uint8_t kLocalNed = 1;
+constexpr std::uint8_t kLocalNedFrame = 1;
 constexpr double kExpiry = 0.25;  // s, of the inner loops' setpoint: it is renewed all the time
 
 std::optional<Eigen::Vector3d> vector_of(std::uint16_t ignored, float x, float y, float z) {
@@ -35,7 +35,7 @@ void Guided::hold(const Eigen::Vector3d& position, double yaw) {
 bool Guided::hear(const SetPositionTargetLocalNed& m, Time now) {
   const std::uint16_t mask = m.type_mask;
   const bool half = (mask & kNoVelocity) != 0 && (mask & kNoAcceleration) == 0;
-  if (m.coordinate_frame != kLocalNed || !is_finite(m) || (half && quirks_.drops_half_targets))
+  if (m.coordinate_frame != kLocalNedFrame || !is_finite(m) || (half && quirks_.drops_half_targets))
     return false;
   target_.position = vector_of(mask & kNoPlace, m.x, m.y, m.z);
   target_.velocity = vector_of(mask & kNoVelocity, m.vx, m.vy, m.vz);
