@@ -178,8 +178,7 @@ TEST_F(Lives, ADamagedFileIsRefused) {
   std::string kept = core::read_file(folder_ / "heard");
   for (const std::size_t at : {0, 16}) {  // the sender's name, the robot's
     std::string damaged = kept;
-    damaged.replace(0, 1, "A");
-    damaged.replace(16, 1, "A");
+    damaged.at(0) = damaged.at(16) = 'A';
     damaged[at] = '\x07';
     core::write_file(folder_ / "damaged", damaged);
     EXPECT_THROW(Opener(team_, "BASE", folder_ / "damaged"), Error) << at;

@@ -10,7 +10,7 @@
 namespace saker::slam {
 namespace {
 
-constexpr double kStep = 1e-6;  // of central differences
+constexpr double kDifference = 1e-6;  // of central differences
 
 using Vector = Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -111,8 +111,8 @@ TEST(Manifolds, PlusJacobianIsTheDerivative) {
     RowMajor J(m.AmbientSize(), m.TangentSize());
     ASSERT_TRUE(m.PlusJacobian(x.data(), J.data()));
     for (int i = 0; i < m.TangentSize(); ++i) {
-      const Vector step = kStep * Vector::Unit(m.TangentSize(), i);
-      const Vector derivative = (plus(m, x, step) - plus(m, x, -step)) / (2 * kStep);
+      const Vector step = kDifference * Vector::Unit(m.TangentSize(), i);
+      const Vector derivative = (plus(m, x, step) - plus(m, x, -step)) / (2 * kDifference);
       EXPECT_LT((J.col(i) - derivative).norm(), 1e-8) << i;
     }
   });
