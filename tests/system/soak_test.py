@@ -69,6 +69,7 @@ class Soak(ProgramTest):
         self.assertIn("samples.jsonl:1: ", self.refused("soak", "--samples", file, "-o", self.folder / "out"))
         file.write_text("")
         self.assertIn("no samples", self.refused("soak", "--samples", file, "-o", self.folder / "out"))
+        self.assertFalse((self.folder / "out").exists())
 
     def test_either_a_scenario_or_samples(self):
         self.assertIn("either", self.refused("soak", "-o", self.folder / "out"))

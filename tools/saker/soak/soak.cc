@@ -101,10 +101,11 @@ int soak(const SoakOptions& options, const CommonOptions& common) {
   if (options.scenario.empty() == options.samples.empty()) {
     throw Error("expected either a SCENARIO or --samples FILE");
   }
+  std::vector<SoakSample> samples;
+  if (!options.samples.empty())
+    samples = read_samples(options.samples);  // bad ones leave no folder
   const OutputFolder out(common);
-  const std::vector<SoakSample> samples = options.samples.empty()
-                                              ? fly_on(options, common, out / "soak.jsonl")
-                                              : read_samples(options.samples);
+  if (options.samples.empty()) samples = fly_on(options, common, out / "soak.jsonl");
   const std::vector<SoakFigures> figures = figures_of(samples);
   const std::string table = soak_table(figures);
   core::write_file(out / "table.txt", table);
