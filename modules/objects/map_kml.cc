@@ -4,28 +4,12 @@
 
 #include <array>
 
+#include "saker/core/markup.h"
 #include "saker/objects/map_export.h"
 #include "saker/objects/object_numbers.h"
 
 namespace saker::objects {
 namespace {
-
-/// Of a name, for XML, which has no control characters.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (static_cast<unsigned char>(c) >= ' ') {
-      result += c;
-    }
-  }
-  return result;
-}
 
 /// KML writes opacity, blue, green, red.
 std::string style(ClassId id, const ObjectClass& object_class) {
@@ -104,7 +88,7 @@ std::string to_kml(const ObjectMap& map, const ClassTable& table, const GeoOrigi
   std::string styles, folders;
   for (int i = 0; i < table.size(); ++i) {
     const auto id = static_cast<ClassId>(i);
-    const std::string name = escaped(table[id].name);
+    const std::string name = core::escaped_markup(table[id].name);
     std::string placemarks;
     for (const MapObject& object : map.objects) {
       if (object.class_id == id) placemarks += placemark(object, name, earth);

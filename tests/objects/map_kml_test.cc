@@ -84,7 +84,7 @@ TEST(MapKml, NamesOfClassesAreEscaped) {
   ClassTable table;
   table.classes[3].name = "a<b & \"c\">\n";
   const std::string kml = to_kml(with(kPole, 3), table, {0, 0});
-  EXPECT_EQ(between(kml, "<Folder><name>", "</name>"), "a&lt;b &amp; \"c\"&gt;");
+  EXPECT_EQ(between(kml, "<Folder><name>", "</name>"), "a&lt;b &amp; &quot;c&quot;&gt;");
 }
 
 TEST(MapKml, AnEmptyMapHasNoPlacemark) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "saker/core/markup.h"
 #include "tools/saker/picture/canvas.h"
 #include "tools/saker/picture/raster_layer.h"
 
@@ -13,26 +14,6 @@ namespace {
 constexpr double kNearPx = 0.25;  // of a line's corners nothing is seen below
 
 std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= ' ') result += c;  // XML has no others
-    }
-  }
-  return result;
-}
 
 std::string data_uri(const cv::Mat& image) {
   const std::string png = encoded_png(image);
@@ -110,7 +91,7 @@ class SvgCanvas : public Canvas {
         fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" "
                     "fill=\"{}\">{}</text>",
                     at.x(), at.y(), style.size_px, kAnchors[static_cast<int>(style.anchor)],
-                    hex(colour), escaped(text)));
+                    hex(colour), core::escaped_markup(text)));
   }
 
   void title(const Eigen::Vector2d& at, const std::string& title) override {
@@ -122,7 +103,7 @@ class SvgCanvas : public Canvas {
     const int height = strip_height_px(raster);
     strips_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{:g}\" fill=\"{}\">{}</text>\n",
                            kStripMarginPx, strips_height_ + kStripCaptionPx - 8,
-                           TextStyle{}.size_px, hex(colours::kInk), escaped(caption));
+                           TextStyle{}.size_px, hex(colours::kInk), core::escaped_markup(caption));
     strips_ += fmt::format(
         "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
         "style=\"image-rendering:pixelated\" xlink:href=\"{}\"/>\n",
@@ -138,7 +119,7 @@ class SvgCanvas : public Canvas {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
         "version=\"1.1\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>{2}</title>\n",
-        page_.width, height, escaped(title_));
+        page_.width, height, core::escaped_markup(title_));
     svg += fmt::format(
         "<clipPath id=\"view\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n",
         page_.view_left, page_.view_top, page_.view_width, page_.view_height);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "saker/core/error.h"
+#include "saker/core/markup.h"
 
 namespace saker::tools {
 namespace {
@@ -16,24 +17,7 @@ constexpr const char* kStyle =
     "padding:12px;font-size:13px}figure{margin:16px 0}figcaption{color:#57606a}svg{width:100%;"
     "height:auto}@media print{h2{break-after:avoid}figure{break-inside:avoid}}";
 
-/// XML has no control characters but these two.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (c == '"') {
-      result += "&quot;";
-    } else if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t') {
-      result += c;
-    }
-  }
-  return result;
-}
+std::string escaped(const std::string& text) { return core::escaped_markup(text, true); }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
