@@ -3,7 +3,7 @@ down to what one thread of a small computer runs in 100 ms.
 
 The stem halves the width (a scan has far more columns than rows) and the head gives it back: each output column holds the scores of
 two input columns. Strides of 2 in both directions after that, sums over the skips, nearest-neighbour upsampling; nothing else, so that
-OpenCV's DNN runs it fast. Rows must be a multiple of 16, columns of 32.
+the backend (modules/segmentation/convolutional_net.h) fuses each with its convolution. Rows must be a multiple of 16, columns of 32.
 """
 import copy
 
