@@ -39,7 +39,8 @@ class Clusters {
                                                    const ClusterConfig& config);
 
  private:
-  std::vector<int> grid_;  ///< the sample of each square, −1 where none
+  std::vector<int> grid_;  ///< the sample of each square; all empty between calls
+  std::vector<std::size_t> cell_of_sample_;
   std::vector<int> sample_of_point_;
   std::vector<WeightedSample> samples_;
 };

@@ -39,32 +39,26 @@ struct LayerSum {
 
 /// How far places reach along an axis, by strips across it.
 struct Strips {
-  int other;
   double width;
   int first = 0;
+  std::vector<int> strip_of;  ///< of each place, from `first`
   std::vector<StripRange> ranges;
 
-  Strips(const Places& places, int axis, double strip_m) : other(1 - axis), width(strip_m) {
-    double low = INFINITY, high = -INFINITY;
+  Strips(const Places& places, int axis, double strip_m) : width(strip_m) {
+    strip_of.reserve(places.size());
     for (const Eigen::Vector2d& p : places) {
-      low = std::min(low, p[other]);
-      high = std::max(high, p[other]);
+      strip_of.push_back(static_cast<int>(std::floor(p[1 - axis] / width)));
     }
-    first = strip(low);
-    ranges.resize(static_cast<std::size_t>(strip(high) - first + 1));
-    for (const Eigen::Vector2d& p : places) {
-      StripRange& range = ranges[index(p)];
-      range.low = std::min(range.low, p[axis]);
-      range.high = std::max(range.high, p[axis]);
+    const auto [low, high] = std::ranges::minmax(strip_of);
+    first = low;
+    ranges.resize(static_cast<std::size_t>(high - low + 1));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      StripRange& range = ranges[strip_of[i] -= first];
+      range.low = std::min(range.low, places[i][axis]);
+      range.high = std::max(range.high, places[i][axis]);
     }
   }
 
-  [[nodiscard]] int strip(double across) const {
-    return static_cast<int>(std::floor(across / width));
-  }
-  [[nodiscard]] std::size_t index(const Eigen::Vector2d& p) const {
-    return static_cast<std::size_t>(strip(p[other]) - first);
-  }
   [[nodiscard]] double across(std::size_t i) const {
     return (first + static_cast<int>(i) + 0.5) * width;
   }
@@ -255,12 +249,13 @@ FaceStrips strips_along(const Places& places, int axis, const FaceConfig& config
   FaceStrips faces;
   set_reach(strips, faces);
   std::vector<LayerSum> sums(strips.ranges.size());
-  for (const Eigen::Vector2d& p : places) {
-    const std::size_t i = strips.index(p);
-    LayerSum& sum = sums[i];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int strip = strips.strip_of[i];
+    const double at = places[i][axis];
+    LayerSum& sum = sums[strip];
     ++sum.all;
-    if (p[axis] < strips.ranges[i].low + config.layer_m) sum.low += p[axis], ++sum.lows;
-    if (p[axis] > strips.ranges[i].high - config.layer_m) sum.high += p[axis], ++sum.highs;
+    if (at < strips.ranges[strip].low + config.layer_m) sum.low += at, ++sum.lows;
+    if (at > strips.ranges[strip].high - config.layer_m) sum.high += at, ++sum.highs;
   }
   constexpr std::size_t kDense = 3;  // points a strip and more: a lone one is none
   const int least = places.size() < kDense * sums.size() ? 1 : 2;

@@ -1,8 +1,10 @@
 #include "saker/detection/vehicle.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "saker/core/statistics.h"
 #include "saker/detection/hull.h"
@@ -10,7 +12,7 @@
 namespace saker::detection {
 namespace {
 
-constexpr int kIndexBits = 24, kSquareBits = 20;  // of a key: more than window.most_points may be
+constexpr int kSquareBits = 20;  // of a key, for each of column and row
 
 /// A square's column or row, from the middle of its range: a cluster is no wider.
 std::uint64_t square(double at, double edge) {
@@ -19,26 +21,42 @@ std::uint64_t square(double at, double edge) {
   return static_cast<std::uint64_t>(std::clamp<std::int64_t>(index, 0, 2 * kMiddle - 1));
 }
 
-/// The first point of each small square: what lies dense counts once.
+/// Squares seen so far, by open addressing: a tenth of the time of sorting all points.
+class SquareSet {
+ public:
+  explicit SquareSet(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), kFree) {}
+
+  /// Whether it is new.
+  bool insert(std::uint64_t square) {
+    constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;  // Fibonacci hashing (Knuth, vol. 3, 6.4)
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t at = (square * kGolden >> 32U) & mask;; at = (at + 1) & mask) {
+      if (slots_[at] == square) return false;
+      if (slots_[at] != kFree) continue;
+      slots_[at] = square;
+      return true;
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t kFree = ~std::uint64_t{0};
+  std::vector<std::uint64_t> slots_;
+};
+
+/// The first point of each small square: what lies dense counts once. In the order of squares.
 Places thinned(const std::vector<BodyPoint>& points, const Eigen::Vector2d& velocity, double edge) {
-  Places places;
-  std::vector<std::uint64_t> keys;  // column, row, index
-  places.reserve(points.size());
-  keys.reserve(points.size());
+  SquareSet seen(points.size());
+  std::vector<std::pair<std::uint64_t, Eigen::Vector2d>> first;
   for (const BodyPoint& p : points) {
     const Eigen::Vector2d place =
         p.position.head<2>().cast<double>() - velocity * static_cast<double>(p.seconds);
-    keys.push_back(
-        ((square(place.x(), edge) << kSquareBits | square(place.y(), edge)) << kIndexBits) |
-        places.size());
-    places.push_back(place);
+    const std::uint64_t key = square(place.x(), edge) << kSquareBits | square(place.y(), edge);
+    if (seen.insert(key)) first.emplace_back(key, place);
   }
-  std::sort(keys.begin(), keys.end());
+  std::ranges::sort(first, {}, [](const auto& of) { return of.first; });
   Places thin;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const bool same = i > 0 && keys[i] >> kIndexBits == keys[i - 1] >> kIndexBits;
-    if (!same) thin.push_back(places[keys[i] & ((std::uint64_t{1} << kIndexBits) - 1)]);
-  }
+  thin.reserve(first.size());
+  for (const auto& [key, place] : first) thin.push_back(place);
   return thin;
 }
 
