@@ -1,6 +1,7 @@
 #include "saker/segmentation/back_projection.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace saker::segmentation {
@@ -8,37 +9,47 @@ namespace {
 
 constexpr int kRowsAround = 1, kColumnsAround = 2;
 constexpr float kNear = 0.3F;  // m: a pixel's point this far away counts half
-
-int wrapped(int column, int columns) {
-  if (column < 0) return (column + columns) % columns;
-  return column < columns ? column : column % columns;
-}
+constexpr float kNowhere = std::numeric_limits<float>::infinity();  // the weight there is 0
 
 }  // namespace
 
-void BackProjection::fill_blocks(const PixelProbabilities& pixels) {
+void BackProjection::fill_frame(const RangeImage& image, const PixelProbabilities& pixels) {
   const auto classes = static_cast<std::size_t>(pixels.classes);
   blocks_ = (classes + Block::SizeAtCompileTime - 1) / Block::SizeAtCompileTime;
   votes_.resize(blocks_);
-  of_pixels_.assign(pixels.values.size() / classes * blocks_, Block::Zero());
-  for (std::size_t i = 0; i * blocks_ < of_pixels_.size(); ++i) {
-    std::copy_n(pixels.at(i), classes, of_pixels_[i * blocks_].data());
+  width_ = image.columns + Block::SizeAtCompileTime;
+  const std::size_t size = static_cast<std::size_t>(image.rows + 2 * kRowsAround) * width_;
+  for (std::vector<float>& axis : places_) axis.assign(size, kNowhere);
+  of_pixels_.assign(size * blocks_, Block::Zero());
+  for (int row = 0; row < image.rows; ++row) {
+    for (int c = -kColumnsAround; c < image.columns + kColumnsAround; ++c) {
+      const int column = (c + image.columns) % image.columns;
+      const std::size_t i = static_cast<std::size_t>(row) * image.columns + column;
+      if (!image.valid(i)) continue;
+      const std::size_t at = framed(row, c);
+      for (int k = 0; k < 3; ++k) places_[k][at] = image.points[i][k];
+      std::copy_n(pixels.at(i), classes, of_pixels_[at * blocks_].data());
+    }
   }
 }
 
-void BackProjection::vote(const Eigen::Vector3f& point, std::size_t pixel,
-                          const RangeImage& image) {
-  const int row = static_cast<int>(pixel) / image.columns;
-  const int column = static_cast<int>(pixel) % image.columns;
+std::size_t BackProjection::framed(int row, int column) const {
+  return static_cast<std::size_t>(row + kRowsAround) * width_ + column + kColumnsAround;
+}
+
+void BackProjection::vote(const Eigen::Vector3f& point, std::size_t centre) {
   std::ranges::fill(votes_, Block::Zero());
-  for (int r = std::max(row - kRowsAround, 0); r <= std::min(row + kRowsAround, image.rows - 1);
-       ++r) {
-    for (int d = -kColumnsAround; d <= kColumnsAround; ++d) {
-      const std::size_t i =
-          static_cast<std::size_t>(r) * image.columns + wrapped(column + d, image.columns);
-      if (!image.valid(i)) continue;
-      const float weight = 1 / (1 + (image.points[i] - point).squaredNorm() / (kNear * kNear));
-      for (std::size_t b = 0; b < blocks_; ++b) votes_[b] += weight * of_pixels_[i * blocks_ + b];
+  const std::size_t first = centre - kRowsAround * width_ - kColumnsAround;
+  for (int r = 0; r <= 2 * kRowsAround; ++r) {
+    const std::size_t begin = first + r * width_;
+    Block square = Block::Zero();
+    for (int k = 0; k < 3; ++k) {
+      square += (Eigen::Map<const Block>(&places_[k][begin]) - point[k]).square();
+    }
+    const Block weight = (1 + square / (kNear * kNear)).inverse();
+    for (int d = 0; d <= 2 * kColumnsAround; ++d) {
+      const Block* of_pixel = &of_pixels_[(begin + d) * blocks_];
+      for (std::size_t b = 0; b < blocks_; ++b) votes_[b] += weight[d] * of_pixel[b];
     }
   }
 }
@@ -47,11 +58,11 @@ lidar::Labels BackProjection::label(const lidar::Scan& scan, const RangeImage& i
                                     const PixelProbabilities& pixels) {
   lidar::Labels labels{std::vector<std::uint8_t>(scan.size(), 0),
                        std::vector<float>(scan.size(), 0.0F)};
-  fill_blocks(pixels);
+  fill_frame(image, pixels);
   const float* votes = votes_.front().data();
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (image.pixel[i] < 0) continue;
-    vote(scan.points[i], static_cast<std::size_t>(image.pixel[i]), image);
+    vote(scan.points[i], framed(image.pixel[i] / image.columns, image.pixel[i] % image.columns));
     const float sum = std::accumulate(votes, votes + pixels.classes, 0.0F);
     const float* best = std::max_element(votes, votes + pixels.classes);
     labels.classes[i] = static_cast<std::uint8_t>(best - votes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "saker/lidar/scan.h"
@@ -23,11 +24,15 @@ class BackProjection {
  private:
   using Block = Eigen::Array<float, 8, 1>;  ///< of classes: what one instruction adds
 
-  void fill_blocks(const PixelProbabilities& pixels);
-  void vote(const Eigen::Vector3f& point, std::size_t pixel, const RangeImage& image);
+  /// The image with what is around it: beyond left and right goes on at the other side, beyond the
+  /// first and last row is nothing.
+  void fill_frame(const RangeImage& image, const PixelProbabilities& pixels);
+  [[nodiscard]] std::size_t framed(int row, int column) const;
+  void vote(const Eigen::Vector3f& point, std::size_t centre);
 
-  std::size_t blocks_ = 1;        ///< a pixel
-  std::vector<Block> of_pixels_;  ///< the probabilities, filled up with zeros
+  std::size_t blocks_ = 1, width_ = 0;        ///< of a pixel; of the frame
+  std::array<std::vector<float>, 3> places_;  ///< x, y and z of the pixels' points
+  std::vector<Block> of_pixels_;              ///< the probabilities, filled up with zeros
   std::vector<Block> votes_;
 };
 

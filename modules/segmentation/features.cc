@@ -9,18 +9,19 @@ namespace {
 
 constexpr int kReach = 3;         // pixels over which a neighbour is sought where one is missing
 constexpr float kNothing = 2.0F;  // step to no return at all: sky
+constexpr float kSky = 1e6F;      // m, in place of its range
 
-float step(float from, float to) {
-  if (!(to > 0)) return kNothing;
-  return std::clamp(std::asinh((to - from) / 0.3F) / 3, -kNothing, kNothing);
-}
+enum Side { left = -1, right = 1 };
 
-/// The first pixel with a return from `columns` to the right on, or i itself.
-std::size_t right_of(const RangeImage& image, std::size_t i, std::size_t columns) {
-  const std::size_t width = image.columns, begin = i / width * width;
-  for (std::size_t d = columns; d < columns + kReach; ++d) {
-    const std::size_t other = begin + (i - begin + d) % width;
-    if (image.valid(other)) return other;
+/// The first pixel with a return from `columns` to a side on, or i itself.
+std::size_t beside(const RangeImage& image, std::size_t i, int columns, Side side) {
+  const int width = image.columns;
+  const std::size_t begin = i / width * width;
+  int column = static_cast<int>(i - begin) + side * columns % width;
+  for (int tries = 0; tries < kReach; ++tries, column += side) {
+    if (column < 0) column += width;
+    if (column >= width) column -= width;
+    if (image.valid(begin + column)) return begin + column;
   }
   return i;
 }
@@ -43,6 +44,20 @@ float slope_between(const Eigen::Vector3f& low, const Eigen::Vector3f& high,
   return std::atan2(rise, run) * static_cast<float>(2 / std::numbers::pi);
 }
 
+/// From one pixel to another, m; both the same where nothing returned.
+float step(const RangeImage& image, std::size_t from, std::size_t to) {
+  return (to == from ? kSky : image.range[to]) - image.range[from];
+}
+
+using Channel = Eigen::Map<Eigen::ArrayXf>;
+
+/// asinh(step / 0.3 m) / 3, to kNothing.
+void tame_steps(Channel steps) {
+  const Eigen::ArrayXf size = steps.abs() / 0.3F;
+  const Eigen::ArrayXf tamed = ((size + (size.square() + 1).sqrt()).log() / 3).min(kNothing);
+  steps = steps.sign() * tamed;
+}
+
 }  // namespace
 
 const std::vector<float>& Features::compute(const RangeImage& raw) {
@@ -52,29 +67,58 @@ const std::vector<float>& Features::compute(const RangeImage& raw) {
   ground_.estimate(image, spacing_);
   const std::size_t pixels = image.size();
   const Eigen::Vector3f up = ground_.up();
+  rows_ = image.rows, columns_ = image.columns;
   values_.assign(kChannelCount * pixels, 0.0F);
+  leftward_.assign(2 * pixels, 0.0F);
+  Channel log_range(&values_[pixels], std::ssize(image.range));
+  Channel pitch(&values_[kChannelCount * pixels - pixels], std::ssize(image.range));
+  log_range.setOnes(), pitch.setOnes();  // what is no return: ln 1
   for (std::size_t i = 0; i < pixels; ++i) {
     if (!image.valid(i)) continue;
     const float range = image.range[i], height = ground_.height()[i];
     const int row = static_cast<int>(i / image.columns);
-    const std::size_t next = right_of(image, i, 1), under = below(image, i, row + 1);
-    const std::size_t right = right_of(image, i, spacing_.columns(range, kBaseline));
+    const int away = spacing_.columns(range, kBaseline);
+    const std::size_t under = below(image, i, row + 1);
     const std::size_t low = below(image, i, spacing_.row_below(row, range, kBaseline));
     float* value = &values_[i];
     value[0] = 1;
-    value[pixels] = std::log(range / 10);
+    value[pixels] = range / 10;
     value[2 * pixels] = std::clamp(height / 3, -1.0F, 4.0F);
     value[3 * pixels] = std::clamp(height / 0.3F, -2.0F, 2.0F);
     value[4 * pixels] = ground_.normals()[i].dot(up);
-    value[5 * pixels] = step(range, next == i ? 0 : image.range[next]);
-    value[6 * pixels] = step(range, under == i ? 0 : image.range[under]);
-    value[7 * pixels] = step(range, right == i ? 0 : image.range[right]);
-    value[8 * pixels] = step(range, low == i ? 0 : image.range[low]);
+    value[kRightEdge * pixels] = step(image, i, beside(image, i, 1, right));
+    value[6 * pixels] = step(image, i, under);
+    value[kRightStep * pixels] = step(image, i, beside(image, i, away, right));
+    value[8 * pixels] = step(image, i, low);
     value[9 * pixels] = low == i ? 0 : slope_between(image.points[low], image.points[i], up);
     value[10 * pixels] = image.points[i].dot(up) / range;
-    value[11 * pixels] = std::clamp(std::log(range * spacing_.pitch(row) / 0.3F) / 2, -2.0F, 2.0F);
+    value[11 * pixels] = range * spacing_.pitch(row) / 0.3F;
+    leftward_[i] = step(image, i, beside(image, i, 1, left));
+    leftward_[pixels + i] = step(image, i, beside(image, i, away, left));
+  }
+  log_range = log_range.log();
+  pitch = (pitch.log() / 2).max(-2.0F).min(2.0F);
+  const std::ptrdiff_t four = 4 * std::ssize(image.range);
+  if (pixels > 0) {
+    tame_steps({&values_[kRightEdge * pixels], four});
+    tame_steps({leftward_.data(), std::ssize(leftward_)});
   }
   return values_;
+}
+
+const std::vector<float>& Features::mirrored() {
+  mirrored_.resize(values_.size());
+  const std::size_t width = columns_, pixels = rows_ * width;
+  for (std::size_t channel = 0; channel < kChannelCount; ++channel) {
+    const float* from = &values_[channel * pixels];
+    if (channel == kRightEdge) from = leftward_.data();
+    if (channel == kRightStep) from = &leftward_[pixels];
+    float* to = &mirrored_[channel * pixels];
+    for (std::size_t begin = 0; begin < pixels; begin += width) {
+      std::reverse_copy(from + begin, from + begin + width, to + begin);
+    }
+  }
+  return mirrored_;
 }
 
 }  // namespace saker::segmentation

@@ -29,6 +29,7 @@ inline constexpr std::array<const char*, 12> kChannels = {
     "row_pitch",    // ln(distance to the next lower beam at this range / 0.3 m) / 2, −2 … 2
 };
 inline constexpr int kChannelCount = static_cast<int>(kChannels.size());
+inline constexpr int kRightEdge = 5, kRightStep = 7;  ///< what changes in a mirror
 
 class Features {
  public:
@@ -38,6 +39,9 @@ class Features {
   /// channel × row × column. Cost: 5 ms for 64×1024.
   const std::vector<float>& compute(const RangeImage& image);
 
+  /// The same of the last image in a mirror: columns run the other way, and right is left.
+  const std::vector<float>& mirrored();
+
   /// Unit, lidar frame, as found in the last image.
   [[nodiscard]] const Eigen::Vector3f& up() const { return ground_.up(); }
 
@@ -45,7 +49,9 @@ class Features {
   BeamSpacing spacing_;
   RangeImage smooth_;
   GroundHeight ground_;
-  std::vector<float> values_;
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<float> values_, mirrored_;
+  std::vector<float> leftward_;  ///< edges and steps to the left, of the image as it is
 };
 
 }  // namespace saker::segmentation

@@ -45,12 +45,30 @@ const lidar::Scan& Segmentation::in_sensor_frame(const lidar::Scan& scan) {
   return moved_;
 }
 
+/// Streets have no handedness: the mean over the image and its mirror image (Simonyan and
+/// Zisserman, ICLR 2015, sec. 3.2).
+PixelProbabilities& Segmentation::probabilities() {
+  const int rows = image_.rows, columns = image_.columns;
+  PixelProbabilities& straight = network_.run(features_.compute(image_), rows, columns);
+  if (!config_.mirrored) return straight;
+  pixels_ = straight;
+  const PixelProbabilities& mirrored = network_.run(features_.mirrored(), rows, columns);
+  const Eigen::Index classes = pixels_.classes;
+  for (int row = 0; row < rows; ++row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * columns * classes;
+    Eigen::Map<Eigen::ArrayXXf> mean(&pixels_.values[begin], classes, columns);
+    const Eigen::Map<const Eigen::ArrayXXf> other(&mirrored.values[begin], classes, columns);
+    mean = 0.5F * (mean + other.rowwise().reverse());
+  }
+  return pixels_;
+}
+
 lidar::Labels Segmentation::segment(const lidar::Scan& given) {
   const lidar::Scan& scan = in_sensor_frame(given);
   project(scan, image_);
   if (image_.size() == 0)
     return {std::vector<std::uint8_t>(scan.size(), 0), std::vector<float>(scan.size(), 0.0F)};
-  PixelProbabilities& pixels = network_.run(features_.compute(image_), image_.rows, image_.columns);
+  PixelProbabilities& pixels = probabilities();
   cylinder_pieces_.decide(image_, features_.up(), pixels);
   return back_projection_.label(scan, image_, pixels);
 }
