@@ -38,19 +38,25 @@ std::size_t BackProjection::framed(int row, int column) const {
 }
 
 void BackProjection::vote(const Eigen::Vector3f& point, std::size_t centre) {
-  std::ranges::fill(votes_, Block::Zero());
+  constexpr int kRows = 2 * kRowsAround + 1, kColumns = 2 * kColumnsAround + 1;
   const std::size_t first = centre - kRowsAround * width_ - kColumnsAround;
-  for (int r = 0; r <= 2 * kRowsAround; ++r) {
-    const std::size_t begin = first + r * width_;
+  std::array<Block, kRows> weights;
+  for (int r = 0; r < kRows; ++r) {
     Block square = Block::Zero();
     for (int k = 0; k < 3; ++k) {
-      square += (Eigen::Map<const Block>(&places_[k][begin]) - point[k]).square();
+      square += (Eigen::Map<const Block>(&places_[k][first + r * width_]) - point[k]).square();
     }
-    const Block weight = (1 + square / (kNear * kNear)).inverse();
-    for (int d = 0; d <= 2 * kColumnsAround; ++d) {
-      const Block* of_pixel = &of_pixels_[(begin + d) * blocks_];
-      for (std::size_t b = 0; b < blocks_; ++b) votes_[b] += weight[d] * of_pixel[b];
+    weights[r] = (1 + square / (kNear * kNear)).inverse();
+  }
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    Block sum = Block::Zero();
+    for (int r = 0; r < kRows; ++r) {
+      const std::size_t begin = first + r * width_;
+      for (int d = 0; d < kColumns; ++d) {
+        sum += weights[r][d] * of_pixels_[(begin + d) * blocks_ + b];
+      }
     }
+    votes_[b] = sum;
   }
 }
 

@@ -94,7 +94,9 @@ void Network::take_row(int row, int parity) {
   const Eigen::Map<const Eigen::ArrayXXf, 0, Eigen::OuterStride<>> scores(
       first, count, outputs, Eigen::OuterStride<>(stride));
   Eigen::ArrayXXf& scratch = memory_->scratch;
-  scratch = (scores.colwise() - scores.rowwise().maxCoeff()).exp();
+  scratch = scores;
+  scratch.colwise() -= scores.rowwise().maxCoeff();
+  scratch = scratch.exp();
   Eigen::ArrayXXf& merged = memory_->merged;
   merged.setZero(count, classes);
   for (int k = 0; k < outputs; ++k) merged.col(memory_->class_of[k]) += scratch.col(k);

@@ -44,6 +44,25 @@ Scan MadeScan::organised() const {
   return scan;
 }
 
+Scan with_handedness(Scan organised) {
+  for (std::size_t i = 0; i < organised.size(); ++i) {
+    const int column = static_cast<int>(i) % organised.columns;
+    const bool hit = (column > 100 && column < 160) || (column > 180 && column < 195);
+    if (hit && organised.points[i].z() > -1.5F) organised.points[i] *= 0.5F;
+  }
+  return organised;
+}
+
+Scan mirrored(const Scan& organised) {
+  Scan scan = organised;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const std::size_t column = i % scan.columns;
+    const Eigen::Vector3f& p = organised.points[i - column + scan.columns - 1 - column];
+    scan.points[i] = {p.x(), -p.y(), p.z()};
+  }
+  return scan;
+}
+
 std::vector<float> uneven_elevations() {
   std::vector<float> elevation = {15, 11, 8, 5, 3};
   for (int k = 0; k < 49; ++k) elevation.push_back(2 - static_cast<float>(k) / 6);

@@ -21,6 +21,12 @@ struct MadeScan {
   [[nodiscard]] Scan organised() const;
 };
 
+/// Two things of different width half way to the wall, and nothing on their other hand.
+[[nodiscard]] Scan with_handedness(Scan organised);
+
+/// As a mirror in the x-z plane shows it.
+[[nodiscard]] Scan mirrored(const Scan& organised);
+
 /// 64 beams as a Pandar64 has them: every sixth of a degree about the horizon, up to 6° elsewhere.
 [[nodiscard]] std::vector<float> uneven_elevations();
 

@@ -92,6 +92,23 @@ TEST(Features, TellHowFarApartTheBeamsAre) {
   EXPECT_NEAR(values[11 * image.size() + i], std::log(image.range[i] * pitch / 0.3) / 2, 0.01);
 }
 
+TEST(Features, InAMirrorAreThoseOfTheMirroredScan) {
+  const lidar::Scan scan = lidar::testing::with_handedness(MadeScan{}.organised());
+  RangeImage image, other;
+  project(scan, image);
+  project(lidar::testing::mirrored(scan), other);
+  Features features, of_other;
+  (void)features.compute(image);
+  const std::vector<float>& found = features.mirrored();
+  const std::vector<float>& expected = of_other.compute(other);
+  ASSERT_EQ(found.size(), expected.size());
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    off += std::abs(found[i] - expected[i]) > 1e-3F ? 1 : 0;
+  }
+  EXPECT_LT(off, found.size() / 1000);
+}
+
 TEST(Features, DoNotDependOnWhatWasComputedBefore) {
   RangeImage one, other;
   project(MadeScan{}.organised(), one);

@@ -58,6 +58,26 @@ TEST_F(ShippedModel, GivesTheSameBytesForTheSameScan) {
   EXPECT_EQ(first.probability, second.probability);
 }
 
+/// Share of points that are called the same in a mirror.
+double share_in_mirror(bool mirrored) {
+  Segmentation segmentation({.mirrored = mirrored}, objects::ClassTable{});
+  const lidar::Scan scan = lidar::testing::with_handedness(MadeScan{}.organised());
+  const lidar::Labels labels = segmentation.segment(scan);
+  const lidar::Labels other = segmentation.segment(lidar::testing::mirrored(scan));
+  double same = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const std::size_t column = i % scan.columns;
+    const std::size_t there = i - column + scan.columns - 1 - column;
+    same += std::abs(labels.probability[i] - other.probability[there]) < 0.01F ? 1 : 0;
+  }
+  return same / static_cast<double>(scan.size());
+}
+
+TEST(Mirror, ChangesNoLabel) {
+  EXPECT_GT(share_in_mirror(true), 0.995);
+  EXPECT_LT(share_in_mirror(false), 0.98);
+}
+
 TEST_F(ShippedModel, CallsEverythingOtherWhereThereIsNothing) {
   EXPECT_TRUE(segmentation_.segment(lidar::Scan{}).classes.empty());
   lidar::Scan organised = MadeScan{}.organised();

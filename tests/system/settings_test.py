@@ -11,7 +11,7 @@ MOST_VALUES, MOST_BYTES = 100, 12_000
 # crew of a team. The longest prefix of a key says it.
 WHO = {
     "odometry": "buyer",
-    "segmentation.model": "buyer",
+    "segmentation": "buyer",
     "slam.measurement_noise": "buyer",
     "uncertainty.model": "buyer",
     "rates": "buyer",
