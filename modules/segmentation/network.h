@@ -14,9 +14,9 @@ struct PixelProbabilities {
   [[nodiscard]] const float* at(std::size_t pixel) const { return &values[pixel * classes]; }
 };
 
-/// The network of tools/training/model.py, by convolutional_net.h on one thread. The image is wrapped
-/// around by 16 columns at each side, so that there is no seam, and its rows are filled up to a
-/// multiple of 16. One instance a thread.
+/// The network of tools/training/model.py, by convolutional_net.h on one thread. The image is
+/// wrapped around by 16 columns at each side, so that there is no seam, and its rows are filled up
+/// to a multiple of 16. One instance a thread.
 class Network {
  public:
   /// `weights` are the bytes of the ONNX file; `file` is for messages. The network may tell more

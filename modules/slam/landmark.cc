@@ -30,10 +30,13 @@ void fuse_class(Landmark& landmark, const std::vector<double>& log_probability) 
 
 double logit(double probability) { return std::log(probability / (1 - probability)); }
 
-/// How much one window speaks for an object against clutter.
-double evidence(double shape_probability, const LandmarkConfig& config) {
-  const double p = std::clamp(shape_probability, config.class_clamp, 1 - config.class_clamp);
-  return logit(p) - logit(config.clutter_probability);
+/// How much one window speaks for an object against clutter: the share of its points that have the
+/// shape, with the Beta prior of a window that speaks for neither. What states no points has many.
+double evidence(double shape_probability, int points, const LandmarkConfig& config) {
+  const double neutral = config.clutter_probability;
+  const double weight = points > 0 ? points / (points + config.clutter_points) : 1;
+  const double p = neutral + weight * (shape_probability - neutral);
+  return logit(std::clamp(p, config.class_clamp, 1 - config.class_clamp)) - logit(neutral);
 }
 
 void fuse_front(Landmark& landmark, const Eigen::Vector2d& front) {
@@ -186,7 +189,7 @@ void observe(Landmark& landmark, const Candidate& candidate, int keyframe,
                            : 0;
   fuse_front(landmark, turned(Eigen::Vector2d(front, 0), turn));
   fuse_class(landmark, clamped_log(candidate.measurement->class_probability, config.class_clamp));
-  landmark.log_odds += evidence(candidate.shape_probability, config);
+  landmark.log_odds += evidence(candidate.shape_probability, candidate.measurement->points, config);
   const Gaussian in_keyframe = turned_by(candidate.in_keyframe, turn);
   remember(landmark, {keyframe, in_keyframe, candidate.measurement->view_cell, 1, candidate.chain});
   if (is_cuboid(landmark.model)) {

@@ -22,6 +22,7 @@ struct LandmarkConfig {
   double still_m = 0.4;
   double class_clamp = 0.05;
   double clutter_probability = 0.6;
+  double clutter_points = 100;
   double missed_log_odds = 0.5;
   double least_log_odds = 6;
   int two_windows = 3;
@@ -54,6 +55,9 @@ struct LandmarkConfig {
     v.field("clutter_probability", clutter_probability, {0.05, 0.95}, "",
             "probability of its shape in a window that speaks neither for nor against an object: "
             "segmentation wavers about bushes and walls");
+    v.field("clutter_points", clutter_points, {0, 1e5}, "",
+            "of such a window, which count with those of each window: a few points that hang "
+            "together all err alike (scripts/clutter-fit)");
     v.field(
         "missed_log_odds", missed_log_odds, {0, 10}, "",
         "that a window takes off which should have measured the object and did not: a quarter of "
