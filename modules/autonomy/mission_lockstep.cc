@@ -83,20 +83,22 @@ void MissionLockstep::step(Time now) {
 
 void MissionLockstep::receive(Time now) {
   for (SensorPacket& packet : plant_.take_packets()) {
-    const lidar::GateVerdict verdict = gate_.judge(packet.payload, {}, packet.received);
-    if (!verdict.passes()) continue;
-    gate_.correct(packet.payload, verdict);
-    for (const lidar::ImuSample& sample : lidar::decode_imu(packet.payload, sensor_)) {
-      body_pose_.add(sample, now);
-      contact_.add(sample);
-    }
-    ingestion_.add(packet.payload);
+    gate_.pass(packet.payload, {}, packet.received,
+               [&](const std::vector<std::uint8_t>& payload, Time) { take_packet(payload, now); });
   }
   if (const auto state = plant_.take_state()) {
     vehicle_ = *state;
     heard_.vehicle = now;
   }
   for (CommandAck& ack : plant_.take_acks()) acks_.push_back(std::move(ack));
+}
+
+void MissionLockstep::take_packet(const std::vector<std::uint8_t>& payload, Time now) {
+  for (const lidar::ImuSample& sample : lidar::decode_imu(payload, sensor_)) {
+    body_pose_.add(sample, now);
+    contact_.add(sample);
+  }
+  ingestion_.add(payload);
 }
 
 /// When what a stage begins now is there.

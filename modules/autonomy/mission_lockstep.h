@@ -107,6 +107,7 @@ class MissionLockstep {
 
   void step(Time now);
   void receive(Time now);
+  void take_packet(const std::vector<std::uint8_t>& payload, Time now);
   void ingest(Time now);
   void take_scan(const IngestedScan& scan, Time now);
   void segment(const IngestedScan& scan, Time now);

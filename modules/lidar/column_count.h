@@ -30,8 +30,8 @@ class ColumnCount {
   }
 
  private:
-  static constexpr double kTolerance = 0.2;       // of a revolution
-  static constexpr double kToleranceShare = 0.1;  // motors are not that uneven
+  static constexpr double kTolerance = 0.02;       // of a revolution; real ones err by 1e-4
+  static constexpr double kToleranceShare = 0.02;  // motors are not that uneven
 
   int columns_;
   double period_s_, rate_hz_;

@@ -49,7 +49,10 @@ void SensorCandidates::add(const ArrivedReading& packet, Candidate& candidate) {
     return;
   }
   who.lidar_port = packet.from.port;
-  if (candidate.lidar == 0) candidate.first_column = reading.first;
+  if (candidate.lidar == 0) {
+    candidate.first_column = reading.first;
+    candidate.first_arrival = packet.arrival;
+  }
   candidate.last_column = reading.last;
   ++candidate.lidar;
 }
@@ -60,6 +63,14 @@ SensorCandidates::Candidate& SensorCandidates::place_for_another() {
   Candidate& least = *std::ranges::min_element(all_, {}, heard);
   least = {};
   return least;
+}
+
+void SensorCandidates::drop(const SensorIdentity& known) {
+  std::erase_if(all_, [&](const Candidate& c) {
+    const SensorIdentity& who = c.identity;
+    return c.lidar > 0 && who.address == known.address && who.lidar_port == known.lidar_port &&
+           who.sender == known.sender;
+  });
 }
 
 const SensorCandidates::Candidate* SensorCandidates::offer(const ArrivedReading& packet,

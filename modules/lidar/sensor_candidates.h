@@ -33,16 +33,21 @@ struct ArrivedReading {
 class SensorCandidates {
  public:
   static constexpr int kLidarToAgree = 8,
-                       kImuToAgree = 4;  ///< packets: some hundredths of a second
+                       kImuToAgree = 4;        ///< packets: some hundredths of a second
+  static constexpr int kImuToAgreeOnStep = 2;  ///< of the sensor that is known
 
   struct Candidate {
     SensorIdentity identity;
     Time offset = 0;  ///< of its stamps to their arrival, the least late one
     ColumnTime first_column, last_column;
     Time newest_imu = 0, heard = 0;
+    Time first_arrival = 0;  ///< of its first packet of the lidar
     int lidar = 0, imu = 0;  ///< packets
 
     [[nodiscard]] bool agrees() const { return lidar >= kLidarToAgree && imu >= kImuToAgree; }
+    [[nodiscard]] bool agrees_on_step() const {
+      return lidar >= kLidarToAgree && imu >= kImuToAgreeOnStep;
+    }
   };
 
   explicit SensorCandidates(const SensorInfo& info) : count_(info) { all_.reserve(kMost); }
@@ -51,6 +56,8 @@ class SensorCandidates {
   /// \return the one that it belongs to, or null. Valid until the next call.
   [[nodiscard]] const Candidate* offer(const ArrivedReading& packet, bool begin);
   void clear() { all_.clear(); }
+  /// Whoever sends the lidar's packets as the one that is known does, which was heard just now.
+  void drop(const SensorIdentity& known);
 
  private:
   static constexpr std::size_t kMost = 4;  // the one of whom least was heard gives way

@@ -1,15 +1,20 @@
 #pragma once
 
 #include <array>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "saker/lidar/column_count.h"
+#include "saker/lidar/gate_cause.h"
 #include "saker/lidar/sensor_candidates.h"
 #include "saker/lidar/sensor_reading.h"
 #include "saker/lidar/stamp_line.h"
 #include "saker/lidar/udp_source.h"
+#include "saker/lidar/waiting_packets.h"
 
 /// Which live packets are believed — reads payload, source and arrival, makes a verdict with its
 /// cause (for who receives), reads no clock.
@@ -26,36 +31,19 @@
 ///
 /// **Taken up again**, on the ground and in flight, are packets of the sensor that agree among each
 /// other but not with what was known:
-///   - its clock stepped (nothing else changed): after 0.15 s without a packet of the lidar that
-///     fits what was known;
+///   - its clock stepped (nothing else changed): after 0.03 s in which no packet of the lidar fits
+///     what was known, and eight of it and two of the inertial unit agree on the step;
 ///   - it restarted, or sends from other ports: after 1 s without a packet of either stream; from
 ///     another address only with the same serial number in both.
 /// Stamps then go on as if nothing had happened: `correction` is to be added. A network that got
 /// faster is no step: columns tell.
 ///
+/// **Inertial packets wait** while the lidar's stamps do not fit, and from one on whose stamp moved
+/// against its arrival by 2 ms: until the lidar fits again, the step is known, or 0.1 s have
+/// passed. They then pass in their order, by the clock that they were stamped by.
+///
 /// A packet that copies all of this cannot be told from the sensor's: Ouster's are not signed.
 namespace saker::lidar {
-
-enum class GateCause {
-  none,        ///< it passes
-  not_agreed,  ///< no sensor is known yet
-  shape,
-  address,
-  port,
-  serial_number,
-  restarted,  ///< another init id
-  stamp,      ///< no time at all
-  ahead,      ///< of its arrival
-  late,
-  back,          ///< inertial: not newer than the one before
-  frame,         ///< its stamps are not those of its frame and column
-  columns,       ///< not in a row
-  out_of_order,  ///< overtaken by too many
-  too_many       ///< more than twice the sensor's rate
-};
-inline constexpr int kGateCauses = static_cast<int>(GateCause::too_many) + 1;
-
-[[nodiscard]] const char* to_string(GateCause cause);  ///< "from another address"
 
 struct GateVerdict {
   GateCause cause = GateCause::none;
@@ -79,9 +67,17 @@ struct SensorGateOptions {
 
 class SensorGate {
  public:
+  /// A packet with its stamps as they are to be flown by, and when it arrived.
+  using Sink = std::function<void(std::vector<std::uint8_t> payload, Time arrival)>;
+
   explicit SensorGate(const SensorInfo& info, const SensorGateOptions& options = {});
 
+  /// Gives on what may be flown by now: packets that waited for this one, then this one itself.
   /// \param arrival  ns of any clock that neither steps nor stops, at least 0
+  void pass(std::span<const std::uint8_t> payload, const UdpSource& from, Time arrival,
+            const Sink& sink);
+
+  /// Of this packet alone: those that it releases are lost.
   [[nodiscard]] GateVerdict judge(std::span<const std::uint8_t> payload, const UdpSource& from,
                                   Time arrival);
 
@@ -106,8 +102,21 @@ class SensorGate {
   void accept(const ArrivedReading& packet);
   GateCause count(GateCause cause, const UdpSource& from);
 
+  [[nodiscard]] bool doubted(Time arrival) const;
+  [[nodiscard]] bool waited_enough(Time arrival) const;
+  [[nodiscard]] bool moved(const ArrivedReading& packet) const;
+  [[nodiscard]] GateCause wait(std::span<const std::uint8_t> payload, const ArrivedReading& packet,
+                               GateCause cause);
+  void release(Time until);
+  [[nodiscard]] bool sent_before(const SensorCandidates::Candidate& stepped, Time step,
+                                 const ArrivedReading& packet) const;
+  void restamp_waiting(const SensorCandidates::Candidate& stepped, Time step);
+
   [[nodiscard]] bool take_up_from(const ArrivedReading& packet, GateCause cause);
-  [[nodiscard]] bool may_replace(const SensorIdentity& identity, Time arrival) const;
+  [[nodiscard]] bool may_replace(const SensorCandidates::Candidate& candidate,
+                                 const ArrivedReading& packet) const;
+  [[nodiscard]] std::string describe(const SensorIdentity& identity, bool known, Time step) const;
+  [[nodiscard]] Time step_of(const SensorCandidates::Candidate& candidate) const;
   void take_up(const SensorCandidates::Candidate& candidate, Time arrival);
 
   SensorInfo info_;
@@ -127,6 +136,10 @@ class SensorGate {
   double lidar_credit_ = 0, imu_credit_ = 0;  // packets, samples
   Time lidar_paid_ = 0, imu_paid_ = 0;
   SensorCandidates candidates_;
+  std::optional<Time> doubted_since_;  // arrival of the lidar's first one that did not fit
+  std::optional<Time> imu_offset_;     // of stamp and arrival, of the last one that passed
+  WaitingPackets waiting_;
+  std::deque<WaitingPacket> released_;  // by the packet that is judged
   GateFigures figures_;
 };
 

@@ -9,7 +9,7 @@
 namespace saker::lidar {
 namespace {
 
-constexpr double kMostUneven = 0.1;  // of a revolution: columns of a packet follow each other
+constexpr double kMostUneven = 0.02;  // of a revolution: columns of a packet follow each other
 
 // imu_packet.h: stamps of the profile LEGACY, and of each measurement of the other one.
 constexpr std::size_t kImuStamps[] = {0, 8, 16};

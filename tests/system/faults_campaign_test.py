@@ -13,8 +13,6 @@ mission:
   capture: {columns: 512, rows: 32}
 """
 CI = ("demo", "small", "garage", "wrong_prior", "obstacles")  # with the smallest worlds
-# Not mended yet: 0.3 s after the sensor's clock stepped back by 0.05 s, a motion of 2 s is off by 0.22 m, 5.7 sd.
-KNOWN = {("demo", 2, "honest_odometry")}
 
 
 class Campaign(ProgramTest):
@@ -68,8 +66,8 @@ class Campaign(ProgramTest):
         scenarios = [ROOT / "configs/scenarios" / f"{name}.yaml" for name in CI]
         run = self.fly("--runs", 20, "--seconds", 20, scenarios=scenarios)
         broken = {(line["scenario"], line["seed"], breach["invariant"]) for line in self.lines() for breach in line["broken"]}
-        self.assertEqual(broken, KNOWN, run.stdout + run.stderr)
-        self.assertEqual(run.returncode, 1 if KNOWN else 0)
+        self.assertEqual(broken, set(), run.stdout + run.stderr)
+        self.assertEqual(run.returncode, 0)
         self.assertEqual(len(self.lines()), 20)
 
 
