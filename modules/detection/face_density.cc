@@ -16,11 +16,6 @@ double log_normal_cdf(double x) {
   return -0.5 * x * x - std::log(-x * std::sqrt(2 * M_PI));  // its tail
 }
 
-double log_sum(double a, double b) {
-  const double most = std::max(a, b);
-  return most + std::log(std::exp(a - most) + std::exp(b - most));
-}
-
 /// Log-density of exponential setback plus Gaussian noise at `behind` the face (exponentially
 /// modified Gaussian).
 double log_setback(double behind, double mean, double sd) {
@@ -148,7 +143,7 @@ class PanelLikelihood {
   }
 
   [[nodiscard]] double operator()(double behind) const {
-    const auto at = static_cast<std::ptrdiff_t>(std::lround((behind - kFirst) / kStep));
+    const auto at = static_cast<std::ptrdiff_t>(std::floor((behind - kFirst) / kStep + 0.5));
     return at < 0 || at >= std::ssize(table_) ? stray_ : table_[static_cast<std::size_t>(at)];
   }
 
@@ -168,14 +163,15 @@ std::vector<double> log_seen(const std::vector<double>& grid, const std::vector<
   const PanelLikelihood likelihood(std::hypot(config.noise_m, config.noise_per_m * view.range),
                                    config);
   std::vector<double> log_p(grid.size(), kNone * static_cast<double>(panels.size()));
+  std::array<double, kDepths> of_depth;
   for (std::size_t i = 0; i < grid.size() && grid[i] < hits + kBeyond; ++i) {
     for (int k = 0; k < kDepths; ++k) {
       const double depth = deepest * k / (kDepths - 1);
-      double sum = 0;
+      of_depth[k] = 0;
       for (const Panel& panel : panels)
-        sum += likelihood(grid[i] - depth * panel.back - panel.outward);
-      log_p[i] = k == 0 ? sum : log_sum(log_p[i], sum);
+        of_depth[k] += likelihood(grid[i] - depth * panel.back - panel.outward);
     }
+    log_p[i] = log_sum(of_depth);
   }
   const double most = *std::ranges::max_element(log_p);
   double sum = 0;
@@ -243,6 +239,18 @@ void blur(std::vector<double>& p, double sd) {
 }
 
 }  // namespace
+
+double log_sum(double a, double b) {
+  const double most = std::max(a, b);
+  return most + std::log(std::exp(a - most) + std::exp(b - most));
+}
+
+double log_sum(std::span<const double> values) {
+  const double most = *std::ranges::max_element(values);
+  double sum = 0;
+  for (const double value : values) sum += std::exp(value - most);
+  return most + std::log(sum);
+}
 
 FaceStrips strips_along(const Places& places, int axis, const FaceConfig& config) {
   const Strips strips(places, axis, config.strip_m);

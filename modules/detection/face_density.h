@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "saker/detection/face_fitter.h"
@@ -74,5 +75,9 @@ class SizeDensity {
   double log_scale_;
   std::vector<std::array<double, 3>> sums_;  ///< of p, p·low, p·low² over cells of that size
 };
+
+/// ln of the sum of what these are the logarithms of.
+[[nodiscard]] double log_sum(double a, double b);
+[[nodiscard]] double log_sum(std::span<const double> values);
 
 }  // namespace saker::detection

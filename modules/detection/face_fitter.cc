@@ -206,13 +206,6 @@ class Face {
   double middle_ = 0, half_ = 0, hits_ = 0, alone_ = 1;
 };
 
-double log_sum(const std::vector<double>& values) {
-  const double most = *std::ranges::max_element(values);
-  double sum = 0;
-  for (const double v : values) sum += std::exp(v - most);
-  return most + std::log(sum);
-}
-
 /// The faces' posterior under one heading.
 class Posterior {
  public:
