@@ -19,9 +19,22 @@ int slope_bin(float rise, float distance) {
   return static_cast<int>(std::clamp(at, 0.0F, static_cast<float>(kSlopes - 1)));
 }
 
+/// To 1e-5 rad, by a polynomial (Abramowitz and Stegun, 4.4.49): bins are a thousand times as wide.
+float atan2_of(float y, float x) {
+  constexpr auto kPi = static_cast<float>(M_PI);
+  const float ax = std::abs(x), ay = std::abs(y);
+  const float most = std::max(std::max(ax, ay), std::numeric_limits<float>::min());
+  const float z = std::min(ax, ay) / most, s = z * z;
+  float angle =
+      z * (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
+  if (ay > ax) angle = kPi / 2 - angle;
+  if (x < 0) angle = kPi - angle;
+  return std::copysign(angle, y);
+}
+
 float azimuth_bins(const Eigen::Vector3f& direction) {
   constexpr auto kPerRadian = static_cast<float>(kBins / (2 * M_PI));
-  return (std::atan2(direction.y(), direction.x()) + static_cast<float>(M_PI)) * kPerRadian;
+  return (atan2_of(direction.y(), direction.x()) + static_cast<float>(M_PI)) * kPerRadian;
 }
 
 /// Where a segment lies within a box, as shares of its length.
