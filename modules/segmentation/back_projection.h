@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "saker/lidar/scan.h"
+#include "saker/segmentation/blockwise.h"
 #include "saker/segmentation/network.h"
 #include "saker/segmentation/range_image.h"
 
@@ -22,8 +23,6 @@ class BackProjection {
                                     const PixelProbabilities& pixels);
 
  private:
-  using Block = Eigen::Array<float, 8, 1>;  ///< of classes: what one instruction adds
-
   /// The image with what is around it: beyond left and right goes on at the other side, beyond the
   /// first and last row is nothing.
   void fill_frame(const RangeImage& image, const PixelProbabilities& pixels);
@@ -32,7 +31,7 @@ class BackProjection {
 
   std::size_t blocks_ = 1, width_ = 0;        ///< of a pixel; of the frame
   std::array<std::vector<float>, 3> places_;  ///< x, y and z of the pixels' points
-  std::vector<Block> of_pixels_;              ///< the probabilities, filled up with zeros
+  std::vector<Block> of_pixels_;              ///< the classes' probabilities, filled up with zeros
   std::vector<Block> votes_;
 };
 

@@ -30,10 +30,12 @@ Error unfit(const onnx::NodeProto& node, const std::string& expected) {
 }
 
 std::vector<float> floats_of(const onnx::TensorProto& tensor) {
+  constexpr std::size_t kMost = std::size_t{1} << 26U;
   std::size_t count = 1;
   for (const std::int64_t size : tensor.dims()) {
-    if (size < 0 || size > 1 << 20) throw Error("tensor \"" + tensor.name() + "\" of no size");
-    count *= static_cast<std::size_t>(size);
+    const bool fits = size >= 0 && static_cast<std::size_t>(size) <= kMost;
+    count = fits ? count * static_cast<std::size_t>(size) : kMost + 1;
+    if (count > kMost) throw Error(fmt::format("tensor \"{}\" of impossible size", tensor.name()));
   }
   std::vector<float> values(tensor.float_data().begin(), tensor.float_data().end());
   const std::string& raw = tensor.raw_data();
@@ -107,7 +109,7 @@ class ConvolutionalNet::Graph {
 
   [[nodiscard]] int channels() const {
     for (const onnx::NodeProto& node : nodes()) {
-      if (node.op_type() != "Conv" || node.input(0) != input()) continue;
+      if (node.op_type() != "Conv" || node.input_size() < 1 || node.input(0) != input()) continue;
       const onnx::TensorProto& weights = constant(node, 1);
       if (weights.dims_size() == 4 && weights.dims(1) <= 1 << 10) {
         return static_cast<int>(weights.dims(1));
@@ -260,7 +262,13 @@ class ConvolutionalNet::Program {
     finish(dnnl::convolution_forward(chosen), chosen.dst_desc(), fused,
            {{DNNL_ARG_SRC, input},
             {DNNL_ARG_WEIGHTS, kept},
-            {DNNL_ARG_BIAS, filled(bias, floats_of(graph_.constant(node, 2)))}});
+            {DNNL_ARG_BIAS, filled(bias, bias_of(node, shape[0]))}});
+  }
+
+  std::vector<float> bias_of(const onnx::NodeProto& node, std::int64_t channels) const {
+    const bool stated = node.input_size() > 2 && !node.input(2).empty();
+    return stated ? floats_of(graph_.constant(node, 2))
+                  : std::vector<float>(static_cast<std::size_t>(channels), 0.0F);
   }
 
   void add_doubling(const onnx::NodeProto& node, const Fused& fused) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "saker/segmentation/blockwise.h"
+
 namespace saker::segmentation {
 namespace {
 
@@ -49,12 +51,12 @@ float step(const RangeImage& image, std::size_t from, std::size_t to) {
   return (to == from ? kSky : image.range[to]) - image.range[from];
 }
 
-using Channel = Eigen::Map<Eigen::ArrayXf>;
-
-/// asinh(step / 0.3 m) / 3, to kNothing. One expression: no temporary as large as the image.
-void tame_steps(Channel steps) {
-  const auto size = steps.abs() / 0.3F;
-  steps = steps.sign() * ((size + (size.square() + 1).sqrt()).log() / 3).min(kNothing);
+/// asinh(step / 0.3 m) / 3, to kNothing.
+void tame_steps(float* steps, std::size_t count) {
+  for_each_block(steps, count, [](Block& step) {
+    const Block size = step.abs() / 0.3F;
+    step = step.sign() * ((size + (size.square() + 1).sqrt()).log() / 3).min(kNothing);
+  });
 }
 
 }  // namespace
@@ -69,9 +71,10 @@ const std::vector<float>& Features::compute(const RangeImage& raw) {
   rows_ = image.rows, columns_ = image.columns;
   values_.assign(kChannelCount * pixels, 0.0F);
   leftward_.assign(2 * pixels, 0.0F);
-  Channel log_range(&values_[pixels], std::ssize(image.range));
-  Channel pitch(&values_[kChannelCount * pixels - pixels], std::ssize(image.range));
-  log_range.setOnes(), pitch.setOnes();  // what is no return: ln 1
+  float* log_range = values_.data() + pixels;
+  float* pitch = values_.data() + (kChannelCount - 1) * pixels;
+  std::fill_n(log_range, pixels, 1.0F);  // ln 1 where nothing returned
+  std::fill_n(pitch, pixels, 1.0F);
   for (std::size_t i = 0; i < pixels; ++i) {
     if (!image.valid(i)) continue;
     const float range = image.range[i], height = ground_.height()[i];
@@ -95,13 +98,10 @@ const std::vector<float>& Features::compute(const RangeImage& raw) {
     leftward_[i] = step(image, i, beside(image, i, 1, left));
     leftward_[pixels + i] = step(image, i, beside(image, i, away, left));
   }
-  log_range = log_range.log();
-  pitch = (pitch.log() / 2).max(-2.0F).min(2.0F);
-  const std::ptrdiff_t four = 4 * std::ssize(image.range);
-  if (pixels > 0) {
-    tame_steps({&values_[kRightEdge * pixels], four});
-    tame_steps({leftward_.data(), std::ssize(leftward_)});
-  }
+  for_each_block(log_range, pixels, [](Block& v) { v = v.log(); });
+  for_each_block(pitch, pixels, [](Block& v) { v = (v.log() / 2).max(-2.0F).min(2.0F); });
+  tame_steps(values_.data() + kRightEdge * pixels, 4 * pixels);
+  tame_steps(leftward_.data(), leftward_.size());
   return values_;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "saker/core/error.h"
+#include "saker/segmentation/blockwise.h"
 #include "saker/segmentation/convolutional_net.h"
 
 namespace saker::segmentation {
@@ -96,7 +97,8 @@ void Network::take_row(int row, int parity) {
   Eigen::ArrayXXf& scratch = memory_->scratch;
   scratch = scores;
   scratch.colwise() -= scores.rowwise().maxCoeff();
-  scratch = scratch.exp();
+  for_each_block(scratch.data(), static_cast<std::size_t>(scratch.size()),
+                 [](Block& v) { v = v.exp(); });
   Eigen::ArrayXXf& merged = memory_->merged;
   merged.setZero(count, classes);
   for (int k = 0; k < outputs; ++k) merged.col(memory_->class_of[k]) += scratch.col(k);

@@ -115,6 +115,13 @@ TEST(ConvolutionalNet, DoublesAndAddsWhatWasThereBefore) {
   EXPECT_EQ(result(net.bytes("out")), (std::vector<float>{2, 3, 6, 7, 6, 7, 10, 11}));
 }
 
+TEST(ConvolutionalNet, NeedsNoBias) {
+  MadeNet net;
+  net.constant("k", {1, 1, 1, 1}, {2});
+  net.node("Conv", {"in", "k"}, "out");
+  EXPECT_EQ(result(net.bytes("out")), (std::vector<float>{2, 4, 6, 8, 10, 12, 14, 16}));
+}
+
 TEST(ConvolutionalNet, KnowsTheInputsChannels) {
   MadeNet net;
   net.constant("k", {1, 3, 1, 1}, {1, 1, 1});
@@ -173,6 +180,13 @@ TEST(ConvolutionalNet, RefusesTensorsThatComeFromNowhereOrHaveAnotherSize) {
   lost.convolution("elsewhere", kItself, 0, "out");
   EXPECT_THROW(result(lost.bytes("out")), Error);
   EXPECT_THROW(result(lost.bytes("nowhere")), Error);
+  MadeNet alone;
+  alone.node("Conv", {}, "out");
+  EXPECT_THROW(result(alone.bytes("out")), Error);
+  MadeNet huge;
+  huge.constant("out.k", {1 << 30, 1 << 30, 1 << 30, 16}, {});
+  huge.node("Conv", {"in", "out.k"}, "out");
+  EXPECT_THROW(result(huge.bytes("out")), Error);
   MadeNet few;
   few.convolution("in", {1, 2, 3}, 0, "out");
   EXPECT_THROW(result(few.bytes("out")), Error);
