@@ -4,6 +4,7 @@ the autopilot's own time-outs else; a log says why.
 mavlink_fault_test.cc does the rest of what goes wrong about the bridge, in made time.
 """
 
+import itertools
 import os
 import re
 import tempfile
@@ -34,7 +35,7 @@ class MavlinkFault(unittest.TestCase):
         self.assertLessEqual(first.t - begin.t, settled, flight.logs())
         self.assertTrue(all(row.calm or not row.flying for row in rows if row.t > begin.t + settled), flight.logs())
         # Where nobody lives who sees, ArduPilot's landing drifts by metres to wherever the wind has it: only the way to it counts.
-        seen = [row for row in rows if settled == SETTLED or not row.landing]
+        seen = rows if settled == SETTLED else list(itertools.takewhile(lambda row: not row.landing, rows))
         self.assertEqual(seen[-1].collisions, 0, flight.logs())
         return flight
 
