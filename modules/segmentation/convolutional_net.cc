@@ -61,7 +61,8 @@ Sizes integers(const onnx::NodeProto& node, const std::string& name, const Sizes
   const onnx::AttributeProto* a = attribute(node, name);
   if (a == nullptr) return otherwise;
   Sizes values(a->ints().begin(), a->ints().end());
-  if (values.size() != otherwise.size()) throw unfit(node, "another number of " + name);
+  if (values.size() != otherwise.size())
+    throw unfit(node, fmt::format("{} {}", otherwise.size(), name));
   return values;
 }
 
@@ -183,9 +184,7 @@ class ConvolutionalNet::Program {
     const onnx::NodeProto& node = graph_.nodes()[i];
     if (node.op_type() == "Constant") return;
     if (node.input_size() < 1) throw unfit(node, "an input");
-    if (node.op_type() == "Identity") {
-      tensors_[node.output(0)] = tensor(node.input(0));
-    } else if (node.op_type() == "Conv") {
+    if (node.op_type() == "Conv") {
       add_convolution(node, fuse(i));
     } else if (node.op_type() == "Resize") {
       add_doubling(node, fuse(i));
@@ -223,7 +222,8 @@ class ConvolutionalNet::Program {
 
   /// Whether nothing but `sum` reads the tensor from `first` on.
   bool free_after(const std::string& name, int first, int sum) const {
-    if (tensors_.count(name) == 0 || name == graph_.input()) return false;
+    const bool outside = name == graph_.input() || name == graph_.output();
+    if (tensors_.count(name) == 0 || outside) return false;
     for (const int user : graph_.users(name)) {
       if (user >= first && user != sum) return false;
     }
@@ -299,7 +299,8 @@ class ConvolutionalNet::Program {
 
   dnnl::memory filled(const Descriptor& descriptor, const std::vector<float>& values) {
     dnnl::memory memory(descriptor, engine_);
-    if (descriptor.get_size() != values.size() * sizeof(float)) throw Error("a bias of other size");
+    if (descriptor.get_size() != values.size() * sizeof(float))
+      throw Error("constants of another size");
     std::copy(values.begin(), values.end(), static_cast<float*>(memory.get_data_handle()));
     return memory;
   }

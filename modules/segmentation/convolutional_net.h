@@ -7,8 +7,8 @@ namespace saker::segmentation {
 
 /// Runs a network of convolutions, sums, rectifiers and nearest-neighbour doublings, as an ONNX
 /// file holds it, by oneDNN on one thread. What follows a convolution or a doubling, a sum and a
-/// rectifier, is done with it, in the memory of the other summand. One instance a thread. Sums are
-/// taken in another order on processors with other instructions: results agree to some 1e-5.
+/// rectifier, is done with it, in the memory of the other summand. One instance a thread. On
+/// processors with other instructions sums are taken in another order: last digits differ.
 class ConvolutionalNet {
  public:
   /// Channel × row × column, kept by the network.
@@ -27,7 +27,7 @@ class ConvolutionalNet {
   /// milliseconds and new memory. Throws Error where the network does not fit that size.
   [[nodiscard]] Planes input(int rows, int columns);
 
-  /// Of the input as it is; overwritten by the next run.
+  /// Of the last input, filled; overwritten by the next run.
   [[nodiscard]] Planes run();
 
  private:

@@ -25,7 +25,7 @@ struct Network::Memory {
   ConvolutionalNet net;
   ConvolutionalNet::Planes output;
   Eigen::ArrayXXf scratch, merged;
-  int channels = 0, classes = 0;
+  int classes = 0;
   std::vector<int> class_of;  ///< of each output
 };
 
@@ -39,7 +39,7 @@ Network::Network(const std::string& weights, const std::filesystem::path& file, 
   const int classes = 1 + *std::max_element(class_of.begin(), class_of.end());
   try {
     memory_ = std::make_unique<Memory>(
-        Memory{ConvolutionalNet(weights), {}, {}, {}, channels, classes, std::move(class_of)});
+        Memory{ConvolutionalNet(weights), {}, {}, {}, classes, std::move(class_of)});
     const ConvolutionalNet::Planes in = memory_->net.input(kTrialRows, kTrialColumns);
     if (in.channels != channels) {
       throw Error(fmt::format("{} input channels, expected {}", in.channels, channels));
