@@ -43,7 +43,7 @@ int bridge(const ProcessOptions& options) {
   spdlog::info("listens as {}, autopilot {} on {}", options.robot,
                to_string(config.mavlink.bridge.autopilot), config.mavlink.line);
   serve(bus, presence, bridge);
-  if (bridge.added().count() > 0) spdlog::info("{}", bridge.latency_text());
+  if (bridge.added().count() > 0) spdlog::info("{}", bridge.cost_text());
   spdlog::info("ends as asked");
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "flight/bus/counter.h"
 #include "flight/bus/messages.h"
 #include "flight/mavlink/host_clock.h"
+#include "flight/process/loop_report.h"
 
 namespace saker::flight::mavlink {
 namespace {
@@ -63,12 +64,14 @@ void MavlinkProcess::pass_on(const VehicleOdometry& odometry) {
   since_stamp_.add(bridge_.odometry().latency_s() + added_s);
 }
 
-std::string MavlinkProcess::latency_text() const {
+std::string MavlinkProcess::cost_text() const {
+  const double ran_s = std::chrono::duration<double>(Steady::now() - begun_).count();
   return fmt::format(
       "{} of odometry: {:.3f} ms through the bridge (95 %: {:.3f}), {:.1f} ms since its stamp "
-      "(95 %: {:.1f})",
+      "(95 %: {:.1f}); {:.2f} % of a core",
       added_.count(), 1e3 * added_.quantile(0.5), 1e3 * added_.quantile(0.95),
-      1e3 * since_stamp_.quantile(0.5), 1e3 * since_stamp_.quantile(0.95));
+      1e3 * since_stamp_.quantile(0.5), 1e3 * since_stamp_.quantile(0.95),
+      100 * process_seconds() / ran_s);
 }
 
 void MavlinkProcess::step() {

@@ -27,8 +27,8 @@ class MavlinkProcess {
   /// Reads the line, does and says what is due.
   void step();
 
-  /// How long odometry took, in one line for the log.
-  [[nodiscard]] std::string latency_text() const;
+  /// How long odometry took and what the process took, in one line for the log.
+  [[nodiscard]] std::string cost_text() const;
 
   [[nodiscard]] const Bridge& bridge() const { return bridge_; }
   /// From hearing odometry to ODOMETRY on the line.
@@ -51,6 +51,7 @@ class MavlinkProcess {
   Time last_bytes_ = 0;  // when the line was not silent
   bool settled_ = true;
   LoopMeter line_meter_{"line"}, odometry_meter_{"odometry"};
+  const Steady::time_point begun_ = Steady::now();
   LatencyHistogram added_;
   LatencyHistogram since_stamp_;  // from the stamp of odometry to the line
   long not_sent_ = 0;

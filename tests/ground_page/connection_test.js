@@ -40,9 +40,9 @@ function opened(t, more = {}) {
   connection.open();
   const socket = Socket.made.at(-1);
   const pass = ms => {
-    for (let passed = 0; passed < ms; passed += 250) {
-      clock.ms += 250;
-      t.mock.timers.tick(250);
+    for (let passed = 0; passed < ms; passed += 100) {
+      clock.ms += 100;
+      t.mock.timers.tick(100);
     }
   };
   socket.text({op: "serverInfo", name: "saker-ground", capabilities: []});

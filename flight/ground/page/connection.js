@@ -5,8 +5,9 @@
 /// Source: the protocol's specification, https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md. Knows no page.
 
 export const PROTOCOLS = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
-export const SILENT_AFTER_MS = 1500;   // a server says something at least twice a second: then the page says that the link hangs
+export const SILENT_AFTER_MS = 1200;   // a server says something at least twice a second: then the page says that the link hangs
 export const GIVEN_UP_AFTER_MS = 4000; // then the socket is closed and opened anew
+const LISTEN_MS = 100;                 // how often that is looked at
 const RETRY_MS = [250, 500, 1000];     // then every second
 const CALL_MS = 15000;                 // a service that has not answered after this has failed
 
@@ -66,7 +67,7 @@ export class Connection {
   }
 
   open() {
-    this.watch ??= setInterval(() => this.#listen(), 250);
+    this.watch ??= setInterval(() => this.#listen(), LISTEN_MS);
     this.#connect();
   }
 
@@ -110,7 +111,7 @@ export class Connection {
       const socket = this.socket;
       this.#lose();  // at once: the close of a link that hangs takes its time
       socket.close();
-    } else if (silent > SILENT_AFTER_MS) this.#say("silent");
+    } else if (silent > SILENT_AFTER_MS && this.link !== "lost") this.#say("silent");  // lost it stays until the server speaks
   }
 
   #take(data) {

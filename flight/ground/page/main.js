@@ -54,6 +54,7 @@ function takeLink(state) {
   for (const {topic} of connection.channels.values()) store.know(topic);
   if (before !== "open" && state.link === "open") store.changed.add("robots");
   sayLink();
+  orders.update();  // with the alarm: no order may seem to be possible without a link
 }
 
 function sayLink() {
