@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import test, {after, before} from "node:test";
 import {launch, open} from "./browser.js";
+import {assertDrawn, drawnObjects} from "./drawn.js";
 import {MadeRun} from "./made_run.js";
 import {MockServer} from "./mock_server.js";
 import {peers} from "./peers.js";
@@ -58,17 +59,7 @@ test("objects in the picture and in the table equal those that were sent", async
   const {page, server} = await flying(t);
   await still(page, server);
   const sent = server.sent["/R1/objects"].objects;
-  const drawn = await page.evaluate(() => [...["cuboids", "cylinders"].entries()].flatMap(([, shape]) => {
-    const {mesh, ids} = saker.view.robots.get("R1").objects[shape];
-    return ids.map((id, i) => ({id, size: [0, 1, 2].map(k => Math.hypot(...mesh.instanceMatrix.array.slice(16 * i + 4 * k, 16 * i + 4 * k + 3))), place: [...mesh.instanceMatrix.array.slice(16 * i + 12, 16 * i + 15)]}));
-  }));
-  assert.deepEqual(drawn.map(({id}) => id).sort((a, b) => a - b), sent.map(({id}) => id).sort((a, b) => a - b));
-  for (const object of sent) {
-    const {size, place} = drawn.find(({id}) => id === object.id), round = object.shape === "cylinder";
-    const [wanted, at] = round ? [[2 * object.radius, 2 * object.radius, object.height], [object.root[0], object.root[1], object.root[2] + object.height / 2]] : [object.size, object.position];
-    size.forEach((v, k) => assert.ok(Math.abs(v - wanted[k]) < 1e-3, `size of ${object.id}: ${size}`));
-    place.forEach((v, k) => assert.ok(Math.abs(v - at[k]) < 1e-3, `place of ${object.id}: ${place}`));
-  }
+  assertDrawn(await drawnObjects(page), sent);
   const rows = await page.evaluate(() => saker.table.shown().map(({id, size}) => [id, size]));
   assert.equal(rows.length, sent.length);
   const car = sent.find(({shape}) => shape === "cuboid"), words = await page.textContent(`.rows .row[data-id="${car.id}"] .length`);

@@ -2,13 +2,15 @@
 
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import unittest
 
 import container
 
-CHECKER, FLIGHT, BASE = "saker-collision-checker", "saker-flight", "saker-base"
+CHECKER, FLIGHT, BASE, GROUND, BRIDGE = "saker-collision-checker", "saker-flight", "saker-base", "saker-ground", "saker-mavlink"
+UNITS = sorted(file.name for file in (container.ROOT / "configs/deploy").glob("saker*") if file.suffix in (".service", ".target"))
 SCENARIO = "/usr/share/saker/scenarios/small.yaml"
 # Killed while it is being stopped it is not restarted.
 END = f"systemctl stop --no-block {FLIGHT}; systemctl kill -s KILL {FLIGHT}; systemctl stop {FLIGHT}"
@@ -28,7 +30,7 @@ class Units(unittest.TestCase):
         root = container.installed("booted", debs)
         if not container.may_raise_limits():  # else LimitRTPRIO= of the units does the same
             print("this machine may raise no limits: a capability stands in for LimitRTPRIO=")
-            for unit in (CHECKER, FLIGHT):
+            for unit in (CHECKER, FLIGHT, BRIDGE):
                 folder = root / f"etc/systemd/system/{unit}.service.d"
                 folder.mkdir(parents=True)
                 (folder / "limits.conf").write_text(DROP_IN)
@@ -64,8 +66,9 @@ class Units(unittest.TestCase):
         self.box.wait(restarted, seconds, f"restart of {unit}")
 
     def simulate(self):
-        """An aircraft on the ground, and what its operator writes into the configuration."""
+        """An aircraft on the ground, and what its operator writes into the configuration. It obeys in the place of an autopilot."""
         type(self).flown += 1
+        self.run("systemctl", "stop", BRIDGE)
         site = pathlib.Path(f"/var/tmp/site{self.flown}")
         log = open(container.FOLDER / f"simulator{self.flown}.log", "w")
         sim = subprocess.Popen(self.box.inside("saker-sim", SCENARIO, "-o", site, "--seed", "1"),
@@ -89,9 +92,9 @@ class Units(unittest.TestCase):
         return site
 
     def test_the_units_are_valid(self):
-        units = sorted(str(p.relative_to(self.box.root)) for p in (self.box.root / "lib/systemd/system").glob("saker*"))
-        self.assertEqual(len(units), 6)
-        self.assertEqual(self.run("systemd-analyze", "verify", *(f"/{unit}" for unit in units)).stdout, "")
+        folder = pathlib.Path("/lib/systemd/system")
+        self.assertEqual(sorted(p.name for p in pathlib.Path(f"{self.box.root}{folder}").glob("saker*")), UNITS)
+        self.assertEqual(self.run("systemd-analyze", "verify", *(folder / unit for unit in UNITS)).stdout, "")
         self.assertEqual(self.show(FLIGHT, "LimitRTPRIO"), "75")
         self.assertEqual(self.show(FLIGHT, "LimitMEMLOCK"), "infinity")
 
@@ -119,6 +122,37 @@ class Units(unittest.TestCase):
         self.run("saker", "base", "status", "--store", "/var/lib/saker/base/base.db")
         self.run("systemctl", "stop", BASE)
         self.assertEqual(self.show(BASE, "Result"), "success")
+
+    def fetched(self, address):
+        """What the installed server answers, asked from this machine inside the container's network."""
+        ask = "import sys, urllib.request; sys.stdout.buffer.write(urllib.request.urlopen(sys.argv[1], timeout=10).read())"
+        return container.command("nsenter", "-t", self.box.init, "-n", "/usr/bin/python3", "-c", ask, address).stdout
+
+    def test_the_page_is_served_with_every_file_that_it_names(self):
+        self.wait_for(GROUND, "ActiveState", "active", 20)
+        self.assertEqual(self.run("stat", "-c", "%U", f"/proc/{self.show(GROUND, 'MainPID')}").stdout.strip(), "saker")
+        address = re.findall(r"http://127\.0\.0\.1:\d+/", self.said(GROUND))[-1]
+        left, seen = {"index.html"}, set()
+        while left:
+            seen.add(name := left.pop())
+            text = self.fetched(address + name)
+            if name.startswith("vendor/"):
+                continue
+            named = re.findall(r'(?:src|href)="([\w./-]+\.(?:js|css|svg))"', text) + re.findall(r'from "(\./[\w./-]+\.js)"', text)
+            left |= {os.path.normpath(file) for file in named} - seen
+        self.assertLess({"main.js", "view.js", "style.css"}, seen)
+        self.assertGreater(len(self.fetched(address + "vendor/three.module.js")), 100_000)
+
+    def test_the_bridge_to_an_autopilot_waits_for_it(self):
+        own = pathlib.Path(f"{self.box.root}/etc/saker/saker.yaml")
+        before = own.read_text()
+        self.addCleanup(own.write_text, before)
+        own.write_text(before + "mavlink: {autopilot: px4, line: 'udp:listen:14550'}\n")
+        self.run("systemctl", "restart", BRIDGE)
+        self.box.wait(lambda: "hears no autopilot on udp:listen:14550" in self.said(BRIDGE), 10, "line of the bridge")
+        self.assertEqual(self.show(BRIDGE, "ActiveState"), "active")
+        pid = self.show(BRIDGE, "MainPID")
+        self.assertEqual(self.run("chrt", "-p", pid).stdout.split(": ")[1].splitlines()[0], "SCHED_FIFO")
 
     def test_the_checker_ends_when_it_is_stopped(self):
         self.run("systemctl", "stop", CHECKER)
