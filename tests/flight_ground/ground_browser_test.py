@@ -25,6 +25,7 @@ class InABrowser(BaseTest):
         self.addCleanup(ground.stdout.close)
         self.addCleanup(self.end, ground)
         address = ground.stdout.readline().strip()
+        flight.wait_for_row(lambda row: row.flying, 40, "take-off")
         run = subprocess.run([shutil.which("node"), SCRIPT, address], capture_output=True, text=True, timeout=200)
         if run.returncode == 77:
             self.skipTest(run.stdout.strip())

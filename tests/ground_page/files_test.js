@@ -28,6 +28,13 @@ test("every module that is imported is there", () => {
   }
 });
 
+test("every module is asked for with the page, not when another one names it", () => {
+  const asked = [...read("index.html").matchAll(/<link rel="modulepreload" href="([^"]+)">/g)].map(([, name]) => name);
+  const own = readdirSync(PAGE).filter(name => name.endsWith(".js") && name !== "main.js");
+  assert.deepEqual(asked.filter(name => !name.startsWith("vendor/")), own.sort());
+  for (const name of ["three.module.js", "three.core.js", "OrbitControls.js"]) assert.ok(asked.includes(`vendor/${name}`), name);
+});
+
 test("lock files name no registry", () => {
   for (const folder of [PAGE, new URL(".", import.meta.url)]) {
     const lock = readFileSync(new URL("package-lock.json", folder), "utf8");

@@ -9,6 +9,7 @@ import {roundLength} from "./geometry.js";
 
 const SLOW_MS = 60, MEASURED = 3;      // mean time of so many pictures, above which they get coarser
 const IDLE_SHARE = 0.3;                // of a picture's time, in which none is drawn: words and orders come first
+const SHOWN = 0, HELD_BACK = 1;        // layers; the camera sees the first
 const GRID_M = 300, GRID_STEP_M = 10;
 const COARSENESS = [1, 0.75, 0.5];     // of the screen's pixels, from the finest
 
@@ -38,6 +39,7 @@ export class Scene {
     this.frames = new Map();
     this.lineMaterials = new Set();
     this.drawn = 0;  // frames so far
+    this.warm = new WeakSet();  // materials that were drawn
     this.times = [];
     this.coarse = software ? 1 : 0;
     this.idleUntil_ms = 0;
@@ -132,13 +134,28 @@ export class Scene {
     if (!this.dirty) return false;
     if (this.#tooSlow()) this.#coarser();
     this.dirty = false;
+    const later = this.#holdBack();
     this.renderer.render(this.scene, this.camera);
+    for (const object of later) object.layers.set(SHOWN);
+    if (later.length) this.invalidate();
     const gl = this.renderer.getContext();
     this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
     this.begun_ms = now_ms;
     this.drawn += 1;
     return true;
+  }
+
+  // A material's shader is compiled when it is first drawn, which takes WebGL by software a quarter of a second: one more a picture, the
+  // vehicle's first. What is left out meanwhile.
+  #holdBack() {
+    const cold = [];
+    this.scene.traverseVisible(object => object.material && !this.warm.has(object.material) && cold.push(object));
+    const first = cold.filter(object => object.userData.first);
+    for (const {material} of first.length ? first : cold.slice(0, 1)) this.warm.add(material);
+    const later = cold.filter(({material}) => !this.warm.has(material));
+    for (const object of later) object.layers.set(HELD_BACK);
+    return later;
   }
 
   // Whether the last picture is done, and some time has passed since: pictures never queue up before what comes next.

@@ -21,6 +21,7 @@ export class VehicleLayer {
       arm.rotation.z = Math.atan2(j, i);
       this.body.add(rotor, arm);
     }
+    for (const part of this.body.children) part.userData.first = true;
     this.body.scale.setScalar(SIZE);
     this.plumb = new THREE.Line(new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), new THREE.LineBasicMaterial({color: colour}));
     this.shadow = new THREE.Mesh(new THREE.CircleGeometry(0.5, 24), new THREE.MeshBasicMaterial({color: colour, transparent: true, opacity: 0.35, depthWrite: false}));
