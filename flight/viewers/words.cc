@@ -34,6 +34,11 @@ std::string text_of(const mission_t& mission) {
   return mission.cause.starts_with(head) ? mission.cause.substr(head.size()) : mission.cause;
 }
 
+/// "what (why)", or without what is not known.
+std::string because(const std::string& what, const std::string& why) {
+  return why.empty() ? what : what + " (" + why + ")";
+}
+
 MissionWords in_flight(const mission_t& mission, const Site& site) {
   const std::string text = text_of(mission);
   if (mission.phase == "tour")
@@ -42,13 +47,13 @@ MissionWords in_flight(const mission_t& mission, const Site& site) {
             fmt::format("it looks at target {} of {} and goes on to the next", mission.target,
                         mission.targets)};
   if (mission.phase == "return")
-    return {{}, "nothing: it flies home (" + text + ")", "it lands where it took off"};
+    return {{}, because("nothing: it flies home", text), "it lands where it took off"};
   if (mission.phase == "hold")
     return {{},
             text.empty() ? "what it holds for to end" : "the end of: " + text,
             fmt::format("it lands {:g} s after it began to hold", site.land_after_s)};
   if (mission.phase == "landing")
-    return {{}, "the ground: it lands (" + text + ")", "it disarms on the ground"};
+    return {{}, because("the ground: it lands", text), "it disarms on the ground"};
   if (mission.phase == "takeoff")
     return {{}, "its height", "it begins its tour; if it does not climb, it lands"};
   return {{}, text, {}};
@@ -110,7 +115,7 @@ MissionWords words_of(const RobotState& state, const Site& site) {
       words.waits_for = "the flight controller to arm";
       words.if_it_goes_on = "it takes off";
     } else if (mission.phase == "done") {
-      words.waits_for = "nothing: the mission is over (" + text_of(mission) + ")";
+      words.waits_for = because("nothing: the mission is over", text_of(mission));
       words.if_it_goes_on = "nothing: it stands";
     } else {
       words = in_flight(mission, site);

@@ -102,6 +102,13 @@ TEST(Words, EveryPhaseSaysWhatItWaitsFor) {
   }
 }
 
+TEST(Words, WithoutACauseThereAreNoEmptyBrackets) {
+  EXPECT_EQ(words_in("landing", Cause::home_reached, "at home").waits_for,
+            "the ground: it lands (at home)");
+  EXPECT_EQ(words_in("landing", Cause::home_reached, "").waits_for, "the ground: it lands");
+  EXPECT_EQ(words_in("done", Cause::landed, "").waits_for, "nothing: the mission is over");
+}
+
 TEST(Words, APhaseThatIsNotKnownSaysItsTextAndPromisesNothing) {
   const MissionWords words = words_in("dance", Cause::ordered, "to music");
   EXPECT_EQ(words.waits_for, "to music");

@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import {launch, open} from "./browser.js";
-import {drawnObjects} from "./drawn.js";
+import {assertDrawn, drawnObjects} from "./drawn.js";
 import {peers} from "./peers.js";
 
 const {FoxgloveClient, WebSocket} = peers();
@@ -49,11 +49,7 @@ try {
   const {client, maps} = listen();
   await page.waitForFunction(() => saker.store.robots.get("R1").objects.size > 1, null, {timeout: 60000, polling: 100});
   const {drawn, heard} = await shown(page, maps);
-  assert.deepEqual(drawn.map(({id}) => id).sort((a, b) => a - b), [...heard.keys()].sort((a, b) => a - b));
-  for (const {id, size} of drawn) {
-    const object = heard.get(id), wanted = object.shape === "cylinder" ? [2 * object.radius, 2 * object.radius, object.height] : object.size;
-    size.forEach((v, k) => assert.ok(Math.abs(v - wanted[k]) < 1e-3, `size of ${id}: ${size}, sent ${wanted}`));
-  }
+  assertDrawn(drawn, [...heard.values()]);
   console.log(`${drawn.length} objects as they were sent`);
   await order(page, "hold");
   await page.waitForFunction(() => document.querySelector(".ladder [aria-current]")?.dataset.level === "hold", null, {timeout: 5000});
