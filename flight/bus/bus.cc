@@ -77,6 +77,12 @@ Bus::Bus(std::unique_ptr<lcm::LCM> control, std::unique_ptr<lcm::LCM> bulk,
          const std::string& robot)
     : robot_(checked_name(robot)), control_(std::move(control)), bulk_(std::move(bulk)) {}
 
+Bus Bus::of_control(const BusConfig& config, const std::string& robot) {
+  const BusConfig valid = core::checked(config, "bus");
+  require_on_machine("bus.control_url", valid.control_url);
+  return on_network(valid.control_url, valid.receive_buffer_kb, checked_name(robot));
+}
+
 Bus Bus::on_network(const std::string& url, int receive_buffer_kb, const std::string& robot) {
   return Bus(opened(url, receive_buffer_kb), nullptr, robot);
 }

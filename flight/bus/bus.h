@@ -64,6 +64,10 @@ class Bus {
   /// interface (multicast.h).
   Bus(const BusConfig& config, const std::string& robot);
 
+  /// The control network alone, checked as by the constructor: scans cost to receive, and some have
+  /// nothing to do with them.
+  [[nodiscard]] static Bus of_control(const BusConfig& config, const std::string& robot);
+
   /// One network alone: what belongs to the bulk network goes there too. Throws as the constructor,
   /// but for a network that is to leave the machine (ttl above 0): that one hears others as well.
   [[nodiscard]] static Bus on_network(const std::string& url, int receive_buffer_kb,

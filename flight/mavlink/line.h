@@ -50,6 +50,8 @@ class Line {
   void write(std::span<const std::uint8_t> frame);
 
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  /// For poll(2); negative: it is not open.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
   /// Whether what comes are whole datagrams.
   [[nodiscard]] bool in_datagrams() const {
     return address_.kind != Address::Kind::serial && address_.kind != Address::Kind::tcp;

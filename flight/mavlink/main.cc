@@ -14,16 +14,17 @@ namespace {
 
 using Steady = MavlinkProcess::Steady;
 
-constexpr int kPriority = 50;                     // as what flies: the vehicle hangs on it
-constexpr std::chrono::milliseconds kLongest{4};  // between looks at the line
+constexpr int kPriority = 50;                      // as what flies: the vehicle hangs on it
+constexpr std::chrono::milliseconds kLongest{10};  // between looks at what is due
 
-/// One thread: waits for messages of the bus, looks at the line.
+/// One thread: waits for messages of the bus and bytes of the line.
 void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
   Service service;
   service.ready();
   Steady::time_point next_announcement = Steady::now();
   while (stop_requests() == 0) {
-    if (bus.handle(kLongest) < 0) throw Error("the LCM network is gone");
+    if (Bus::handle({&bus}, kLongest, bridge.line_descriptor()) < 0)
+      throw Error("the LCM network is gone");
     bridge.step();
     service.alive(Steady::now());
     if (Steady::now() < next_announcement) continue;
@@ -35,7 +36,7 @@ void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
 
 int bridge(const ProcessOptions& options) {
   const ProcessConfig config = read_configuration(options.configuration);
-  Bus bus(config.bus, options.robot);
+  Bus bus = Bus::of_control(config.bus, options.robot);  // scans would cost more than all else
   Presence presence(bus, "saker-mavlink");
   presence.claim();
   MavlinkProcess bridge(config.mavlink, bus);

@@ -8,7 +8,6 @@
 #include "flight/bus/counter.h"
 #include "flight/bus/messages.h"
 #include "flight/mavlink/host_clock.h"
-#include "flight/process/loop_report.h"
 
 namespace saker::flight::mavlink {
 namespace {
@@ -71,7 +70,7 @@ std::string MavlinkProcess::cost_text() const {
       "(95 %: {:.1f}); {:.2f} % of a core",
       added_.count(), 1e3 * added_.quantile(0.5), 1e3 * added_.quantile(0.95),
       1e3 * since_stamp_.quantile(0.5), 1e3 * since_stamp_.quantile(0.95),
-      100 * process_seconds() / ran_s);
+      100 * (process_seconds() - begun_cpu_s_) / ran_s);
 }
 
 void MavlinkProcess::step() {

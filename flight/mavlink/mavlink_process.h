@@ -10,6 +10,7 @@
 #include "flight/mavlink/latency.h"
 #include "flight/mavlink/line.h"
 #include "flight/process/loop_meter.h"
+#include "flight/process/loop_report.h"
 
 namespace saker::flight::mavlink {
 
@@ -26,6 +27,9 @@ class MavlinkProcess {
 
   /// Reads the line, does and says what is due.
   void step();
+
+  /// On which bytes of the line come; negative: it is not open.
+  [[nodiscard]] int line_descriptor() const { return line_.descriptor(); }
 
   /// How long odometry took and what the process took, in one line for the log.
   [[nodiscard]] std::string cost_text() const;
@@ -52,6 +56,7 @@ class MavlinkProcess {
   bool settled_ = true;
   LoopMeter line_meter_{"line"}, odometry_meter_{"odometry"};
   const Steady::time_point begun_ = Steady::now();
+  const double begun_cpu_s_ = process_seconds();  // without what was read before
   LatencyHistogram added_;
   LatencyHistogram since_stamp_;  // from the stamp of odometry to the line
   long not_sent_ = 0;

@@ -130,6 +130,27 @@ TEST_F(WithRoute, BulkDoesNotTravelOnTheNetworkOfControl) {
   EXPECT_EQ(heard, 0);
 }
 
+TEST_F(WithRoute, OfControlAloneNothingOfBulkIsHeard) {
+  Bus sender(BusConfig{}, "R1"), receiver = Bus::of_control(BusConfig{}, "R1");
+  int scans = 0, setpoints = 0;
+  receiver.subscribe<scan_t>([&](const scan_t&) { return ++scans > 0; });
+  receiver.subscribe<setpoint_t>([&](const setpoint_t&) { return ++setpoints > 0; });
+  sender.publish(scan_t{});
+  sender.publish(setpoint_t{});
+  handle_until(receiver, [&] { return setpoints == 1; });
+  receiver.handle(milliseconds(100));
+  EXPECT_EQ(setpoints, 1);
+  EXPECT_EQ(scans, 0);
+}
+
+TEST_F(WithRoute, OfControlAloneNothingLeavesTheMachineEither) {
+  BusConfig radio;
+  radio.control_url = "udpm://239.255.76.67:7700?ttl=1";
+  EXPECT_EQ(message_of([&] { (void)Bus::of_control(radio, "R1"); }),
+            message_of([&] { Bus(radio, "R1"); }));
+  EXPECT_NE(message_of([&] { (void)Bus::of_control(radio, "R1"); }), "");
+}
+
 TEST_F(WithRoute, WhatIsNoMessageIsCountedAndForgotten) {
   Bus receiver(BusConfig{}, "R1");
   int heard = 0;
