@@ -12,7 +12,7 @@ export function assertDrawn(drawn, sent) {
   assert.deepEqual(drawn.map(({id}) => id).sort((a, b) => a - b), sent.map(({id}) => id).sort((a, b) => a - b));
   for (const object of sent) {
     const {size, place} = drawn.find(({id}) => id === object.id), round = object.shape === "cylinder";
-    const [wanted, at] = round ? [[2 * object.radius, 2 * object.radius, object.height], [object.root[0], object.root[1], object.root[2] + object.height / 2]] : [object.size, object.position];
+    const [wanted, at] = round ? [[2 * object.radius, 2 * object.radius, object.height], object.root.map((v, k) => v + (object.height / 2) * object.axis[k])] : [object.size, object.position];
     size.forEach((v, k) => assert.ok(Math.abs(v - wanted[k]) < 1e-3, `size of ${object.id}: ${size}`));
     place.forEach((v, k) => assert.ok(Math.abs(v - at[k]) < 1e-3, `place of ${object.id}: ${place}`));
   }
