@@ -80,7 +80,7 @@ Bus::Bus(std::unique_ptr<lcm::LCM> control, std::unique_ptr<lcm::LCM> bulk,
 Bus Bus::of_control(const BusConfig& config, const std::string& robot) {
   const BusConfig valid = core::checked(config, "bus");
   require_on_machine("bus.control_url", valid.control_url);
-  return on_network(valid.control_url, valid.receive_buffer_kb, checked_name(robot));
+  return on_network(valid.control_url, valid.receive_buffer_kb, robot);
 }
 
 Bus Bus::on_network(const std::string& url, int receive_buffer_kb, const std::string& robot) {
