@@ -46,9 +46,10 @@ std::unique_ptr<lcm::LCM> opened(const std::string& url, int buffer_kb) {
   return network;
 }
 
-/// How many messages were handled; negative: the network is gone.
+/// Of a network with a message. How many were handled; negative: the network is gone.
 int drain(lcm::LCM& network, int most) {
-  for (int handled = 0; handled < most; ++handled) {
+  if (network.handle() < 0) return -1;
+  for (int handled = 1; handled < most; ++handled) {
     const int status = network.handleTimeout(0);
     if (status < 0) return -1;
     if (status == 0) return handled;
@@ -149,8 +150,9 @@ int Bus::handle(std::initializer_list<Bus*> buses, std::chrono::milliseconds tim
   const auto wait = static_cast<int>(std::max<std::int64_t>(0, timeout.count()));
   if (::poll(ready.data(), ready.size(), wait) <= 0) return 0;
   int handled = 0;
-  for (lcm::LCM* const network : networks) {
-    const int count = drain(*network, most);
+  for (std::size_t i = 0; i < networks.size(); ++i) {
+    if (ready[i].revents == 0) continue;
+    const int count = drain(*networks[i], most);
     if (count < 0) return -1;
     handled += count;
   }

@@ -9,12 +9,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <regex>
+#include <utility>
 
 #include "saker/core/error.h"
 
@@ -75,6 +76,79 @@ bool is_bound_to(int descriptor, std::uint16_t port) {
          bound.sin_family == AF_INET && ntohs(bound.sin_port) == port;
 }
 
+using Filter = std::vector<sock_filter>;
+
+constexpr std::uint32_t kAll = 0xFFFFFFFF;
+constexpr std::uint32_t kShortMessage = 0x4C433032;     // LCM's magic of what is in one datagram
+constexpr std::uint32_t kMagicAt = 8, kChannelAt = 16;  // bytes, from the UDP header on
+
+sock_filter load(std::uint16_t size, std::uint32_t at) {
+  return BPF_STMT(static_cast<std::uint16_t>(BPF_LD | size | BPF_ABS), at);
+}
+
+/// Skips so many where it is `value`, so many else.
+sock_filter skip(std::uint32_t value, std::uint8_t equal, std::uint8_t other) {
+  return BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, equal, other);
+}
+
+sock_filter take(std::uint32_t bytes) { return BPF_STMT(BPF_RET | BPF_K, bytes); }
+
+/// Takes what came over lo, and multicast that this machine hears of itself.
+Filter machine_filter() {
+  constexpr auto kAbout = static_cast<std::uint32_t>(SKF_AD_OFF);
+  return {load(BPF_B, kAbout + SKF_AD_PKTTYPE),
+          skip(PACKET_LOOPBACK, 3, 0),
+          load(BPF_W, kAbout + SKF_AD_IFINDEX),
+          skip(::if_nametoindex("lo"), 1, 0),
+          take(0),
+          take(kAll)};
+}
+
+/// Takes what begins with `name` and its zero, else goes on.
+void add_channel(const std::string& name, Filter& filter) {
+  const std::size_t size = name.size() + 1;
+  const std::size_t words = size / 4, bytes = size % 4;
+  for (std::size_t i = 0; i < words + bytes; ++i) {
+    const std::size_t at = i < words ? 4 * i : 4 * words + (i - words);
+    const auto byte = [&](std::size_t k) {
+      return std::uint32_t{static_cast<std::uint8_t>(name.c_str()[k])};
+    };
+    const std::uint32_t value =
+        i < words ? byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3)
+                  : byte(at);
+    const auto rest = static_cast<std::uint8_t>(2 * (words + bytes - i - 1) + 1);
+    filter.push_back(load(i < words ? BPF_W : BPF_B, kChannelAt + static_cast<std::uint32_t>(at)));
+    filter.push_back(skip(value, 0, rest));
+  }
+  filter.push_back(take(kAll));
+}
+
+/// Short names first: a load beyond a datagram's end drops it.
+Filter channel_filter(std::vector<std::string> channels) {
+  std::sort(channels.begin(), channels.end(),
+            [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  Filter filter = machine_filter();
+  filter.back() = load(BPF_W, kMagicAt);
+  filter.push_back(skip(kShortMessage, 1, 0));
+  filter.push_back(take(kAll));
+  for (const std::string& name : channels) add_channel(name, filter);
+  filter.push_back(take(0));
+  return filter;
+}
+
+void filter_sockets(std::uint16_t port, Filter filter) {
+  const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
+  int sockets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int descriptor = std::stoi(entry.path().filename());
+    if (!is_bound_to(descriptor, port)) continue;
+    ++sockets;
+    if (::setsockopt(descriptor, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) != 0)
+      throw Error(because("no filter of what is not for this process"));
+  }
+  if (sockets == 0) throw Error("no socket on port " + std::to_string(port) + " to filter");
+}
+
 }  // namespace
 
 MulticastGroup multicast_group(const std::string& url) {
@@ -106,31 +180,10 @@ void require_on_machine(const std::string& key, const std::string& url) {
               "robot and ground (link.ground)");
 }
 
-void hear_this_machine_alone(std::uint16_t port) {
-  const auto load = [](std::uint16_t size, int what) {
-    return sock_filter BPF_STMT(static_cast<std::uint16_t>(BPF_LD | size | BPF_ABS),
-                                static_cast<std::uint32_t>(SKF_AD_OFF + what));
-  };
-  const auto is = [](std::uint32_t value, std::uint8_t skip) {
-    return sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, skip, 0);
-  };
-  std::array<sock_filter, 6> code = {load(BPF_B, SKF_AD_PKTTYPE),
-                                     is(PACKET_LOOPBACK, 3),
-                                     load(BPF_W, SKF_AD_IFINDEX),
-                                     is(::if_nametoindex("lo"), 1),
-                                     sock_filter BPF_STMT(BPF_RET | BPF_K, 0),
-                                     sock_filter BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFF)};
-  const sock_fprog filter{static_cast<unsigned short>(code.size()), code.data()};
-  int sockets = 0;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-    const int descriptor = std::stoi(entry.path().filename());
-    if (!is_bound_to(descriptor, port)) continue;
-    ++sockets;
-    if (::setsockopt(descriptor, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)
-      throw Error(because("no filter of what other machines send"));
-  }
-  if (sockets == 0)
-    throw Error("no socket on port " + std::to_string(port) + " to shut to other machines");
+void hear_this_machine_alone(std::uint16_t port) { filter_sockets(port, machine_filter()); }
+
+void hear_channels_alone(std::uint16_t port, std::vector<std::string> channels) {
+  filter_sockets(port, channel_filter(std::move(channels)));
 }
 
 std::string multicast_fault(const MulticastGroup& group) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// The multicast network under LCM, looked at with plain sockets: LCM itself says what is wrong in
 /// many lines on stderr, and some of it only after ten seconds.
@@ -32,6 +33,11 @@ void require_on_machine(const std::string& key, const std::string& url);
 /// that this machine hears of itself (socket(7), SO_ATTACH_FILTER). Throws Error where there is no
 /// such socket, or the kernel refuses.
 void hear_this_machine_alone(std::uint16_t port);
+
+/// The same, and of LCM's messages these channels alone: every other datagram of a busy network
+/// would wake its receiver to be thrown away. Messages of several datagrams come in whatever their
+/// channel. It holds for all that this process has on `port`. Throws Error as above.
+void hear_channels_alone(std::uint16_t port, std::vector<std::string> channels);
 
 /// The command that mends a missing route on this machine alone.
 [[nodiscard]] std::string multicast_remedy(const MulticastGroup& group);

@@ -23,6 +23,12 @@ bool Bridge::Timer::due(Time now) {
   return true;
 }
 
+bool Bridge::Timer::early(Time now) {
+  if (now < next - 19 * period / 20) return false;  // 11 ms after the last at 50 Hz
+  next = now + 3 * period / 2;
+  return true;
+}
+
 Bridge::Bridge(const BridgeConfig& config, const std::optional<SigningKey>& key)
     : config_(core::checked(config, "mavlink")),
       dialect_(dialect_of(config.autopilot)),
@@ -113,8 +119,8 @@ void Bridge::hear_autopilot(const Frame& frame, Time now) {
   }
 }
 
-void Bridge::hear(const VehicleOdometry& odometry, Time now) {
-  const OdometryOut::Result result = odometry_.hear(mounting_.odometry(odometry), now);
+void Bridge::hear(const VehicleOdometry& odometry, Time now, bool fresh) {
+  const OdometryOut::Result result = odometry_.hear(mounting_.odometry(odometry), now, fresh);
   if (!state_.connected(now)) return;
   if (result.message) {
     send(*result.message);
@@ -132,7 +138,8 @@ void Bridge::hear(const VehicleOdometry& odometry, Time now) {
 }
 
 void Bridge::hear(const Setpoint& setpoint, Time now) {
-  setpoints_.hear(mounting_.setpoint(setpoint), sensor_time(now));
+  const bool taken = setpoints_.hear(mounting_.setpoint(setpoint), sensor_time(now));
+  if (taken && setpoint_.early(now)) send_setpoint(now);
 }
 
 void Bridge::hear(const Command& command, Time now) {

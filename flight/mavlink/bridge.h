@@ -40,7 +40,8 @@ class Bridge {
   void hear_bytes(std::span<const std::uint8_t> bytes, Time now, SigningTime signing_now);
   /// The end of a datagram, or a pause of the line.
   void settle(Time now, SigningTime signing_now);
-  void hear(const VehicleOdometry& odometry, Time now);
+  /// \param fresh  it did not lie anywhere before: only such goes on
+  void hear(const VehicleOdometry& odometry, Time now, bool fresh = true);
   void hear(const Setpoint& setpoint, Time now);
   void hear(const Command& command, Time now);
 
@@ -68,6 +69,8 @@ class Bridge {
     Time period;
     Time next = 0;
     bool due(Time now);
+    /// Whether something new may go before its time; the timer then waits for the one after it.
+    bool early(Time now);
   };
 
   template <class Message>

@@ -1,5 +1,10 @@
 #include <spdlog/spdlog.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flight/bus/multicast.h"
 #include "flight/bus/presence.h"
 #include "flight/bus/priority.h"
 #include "flight/mavlink/check.h"
@@ -14,18 +19,15 @@ namespace {
 
 using Steady = MavlinkProcess::Steady;
 
-constexpr int kPriority = 50;                      // as what flies: the vehicle hangs on it
-constexpr std::chrono::milliseconds kLongest{10};  // between looks at what is due
+constexpr int kPriority = 50;  // as what flies: the vehicle hangs on it
 
 /// One thread: waits for messages of the bus and bytes of the line.
-void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
+void serve(Presence& presence, MavlinkProcess& bridge) {
   Service service;
   service.ready();
   Steady::time_point next_announcement = Steady::now();
   while (stop_requests() == 0) {
-    if (Bus::handle({&bus}, kLongest, bridge.line_descriptor()) < 0)
-      throw Error("the LCM network is gone");
-    bridge.step();
+    if (!bridge.serve()) throw Error("the LCM network is gone");
     service.alive(Steady::now());
     if (Steady::now() < next_announcement) continue;
     presence.announce();
@@ -34,16 +36,24 @@ void serve(Bus& bus, Presence& presence, MavlinkProcess& bridge) {
   service.stopping();
 }
 
+/// Nothing else wakes it: half of what it takes is being woken.
+void hear_subscribed_alone(const Bus& bus, const std::string& url) {
+  std::vector<std::string> channels;
+  for (const Bus::Counters& subscription : bus.counters()) channels.push_back(subscription.channel);
+  hear_channels_alone(multicast_group(url).port, std::move(channels));
+}
+
 int bridge(const ProcessOptions& options) {
   const ProcessConfig config = read_configuration(options.configuration);
   Bus bus = Bus::of_control(config.bus, options.robot);  // scans would cost more than all else
   Presence presence(bus, "saker-mavlink");
   presence.claim();
   MavlinkProcess bridge(config.mavlink, bus);
+  hear_subscribed_alone(bus, config.bus.control_url);
   if (const std::string fault = take_priority(kPriority); !fault.empty()) spdlog::warn(fault);
   spdlog::info("listens as {}, autopilot {} on {}", options.robot,
                to_string(config.mavlink.bridge.autopilot), config.mavlink.line);
-  serve(bus, presence, bridge);
+  serve(presence, bridge);
   if (bridge.added().count() > 0) spdlog::info("{}", bridge.cost_text());
   spdlog::info("ends as asked");
   return 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "flight/bus/counter.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr Time kStatePeriod = kNanosecondsPerSecond / 50;
 constexpr Time kHealthPeriod = kNanosecondsPerSecond;
 constexpr Time kPause = kNanosecondsPerSecond / 20;  // of the line: a frame takes 12 ms at 230400
+constexpr Time kRest = kNanosecondsPerSecond / 80;   // of the bus, where nothing in it is urgent
+constexpr std::chrono::milliseconds kLongest{10};    // between looks at what is due
 constexpr int kMostReads = 64;                       // in one step
 
 std::optional<SigningKey> key_of(const std::string& file) {
@@ -55,7 +58,7 @@ void MavlinkProcess::subscribe() {
 void MavlinkProcess::pass_on(const VehicleOdometry& odometry) {
   const long sent = bridge_.counters().odometry;
   const Time heard = host_now();
-  bridge_.hear(odometry, heard);
+  bridge_.hear(odometry, heard, !waited_);
   write_line();
   if (bridge_.counters().odometry == sent) return;
   const double added_s = to_seconds(host_now() - heard);
@@ -71,6 +74,30 @@ std::string MavlinkProcess::cost_text() const {
       added_.count(), 1e3 * added_.quantile(0.5), 1e3 * added_.quantile(0.95),
       1e3 * since_stamp_.quantile(0.5), 1e3 * since_stamp_.quantile(0.95),
       100 * (process_seconds() - begun_cpu_s_) / ran_s);
+}
+
+bool MavlinkProcess::serve() {
+  using std::chrono::ceil, std::chrono::milliseconds, std::chrono::nanoseconds;
+  const Time rests_until = std::min(bus_heard_ + kRest, bridge_.odometry().next());
+  const Time rest = rests_until - host_now();
+  int handled = 0;
+  if (rest <= 0) {
+    handled = Bus::handle({&bus_}, kLongest, line_.descriptor());
+  } else {
+    (void)Bus::handle({}, ceil<milliseconds>(nanoseconds(rest)), line_.descriptor());
+    if (host_now() >= rests_until) handled = drain();
+  }
+  if (handled > 0) bus_heard_ = host_now();
+  step();
+  return handled >= 0;
+}
+
+/// What came in a rest.
+int MavlinkProcess::drain() {
+  waited_ = true;
+  const int handled = bus_.handle(std::chrono::milliseconds(0));
+  waited_ = false;
+  return handled;
 }
 
 void MavlinkProcess::step() {

@@ -28,8 +28,10 @@ class MavlinkProcess {
   /// Reads the line, does and says what is due.
   void step();
 
-  /// On which bytes of the line come; negative: it is not open.
-  [[nodiscard]] int line_descriptor() const { return line_.descriptor(); }
+  /// Waits for the bus and the line, then does what is due. Odometry that goes on is heard at once
+  /// and never one that lay there, the rest of the bus after kRest: most of what the bridge costs
+  /// is being woken. False: the network is gone.
+  [[nodiscard]] bool serve();
 
   /// How long odometry took and what the process took, in one line for the log.
   [[nodiscard]] std::string cost_text() const;
@@ -40,6 +42,7 @@ class MavlinkProcess {
 
  private:
   void subscribe();
+  int drain();
   void pass_on(const VehicleOdometry& odometry);
   void read_line();
   void write_line();
@@ -53,6 +56,8 @@ class MavlinkProcess {
   Line line_;
   Time next_state_ = 0, next_health_ = 0;
   Time last_bytes_ = 0;  // when the line was not silent
+  Time bus_heard_ = 0;
+  bool waited_ = false;  // what is handled now came in a rest
   bool settled_ = true;
   LoopMeter line_meter_{"line"}, odometry_meter_{"odometry"};
   const Steady::time_point begun_ = Steady::now();

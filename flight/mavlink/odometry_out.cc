@@ -28,7 +28,7 @@ double since(Time begin, Time end) { return to_seconds(end - begin); }
 
 }  // namespace
 
-OdometryOut::Result OdometryOut::hear(const VehicleOdometry& odometry, Time host_now) {
+OdometryOut::Result OdometryOut::hear(const VehicleOdometry& odometry, Time host_now, bool fresh) {
   const bool anew = newest_ && odometry.stamp + kNanosecondsPerSecond < newest_->stamp;
   if (odometry.status == VehicleOdometryStatus::lost) {
     good_since_.reset();
@@ -60,7 +60,7 @@ OdometryOut::Result OdometryOut::hear(const VehicleOdometry& odometry, Time host
   if (lied_ && !good(host_now)) return result;
   reset_count_ = static_cast<std::uint8_t>(reset_count_ + lied_);
   lied_ = false;
-  if (!reset && sent_at_ != 0 && since(sent_at_, host_now) < config_.least_period_s) return result;
+  if (!reset && (!fresh || host_now < next())) return result;
   const Time host_stamp = std::min(clock_.host(odometry.stamp).value_or(host_now), host_now);
   result.message = message(odometry, host_stamp);
   latency_s_ = since(host_stamp, host_now);

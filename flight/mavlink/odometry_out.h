@@ -49,7 +49,13 @@ class OdometryOut {
 
   explicit OdometryOut(const OdometryOutConfig& config = {}) : config_(config) {}
 
-  [[nodiscard]] Result hear(const VehicleOdometry& odometry, Time host_now);
+  /// \param fresh  else it is believed, but goes out only where it is a reset
+  [[nodiscard]] Result hear(const VehicleOdometry& odometry, Time host_now, bool fresh = true);
+
+  /// From when on what is heard goes out, where it is good.
+  [[nodiscard]] Time next() const {
+    return sent_at_ == 0 ? 0 : sent_at_ + from_seconds(config_.least_period_s);
+  }
 
   /// Whether there is odometry to fly on: good, and young enough.
   [[nodiscard]] bool good(Time host_now) const;

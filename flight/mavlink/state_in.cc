@@ -149,7 +149,7 @@ std::array<Wanted, 9> wanted_messages(const Dialect& dialect) {
            {SysStatus::kId, 1},
            {ExtendedSysState::kId, 5},
            {BatteryStatus::kId, 1},
-           {AttitudeQuaternion::kId, 50},
+           {AttitudeQuaternion::kId, 20},
            {LocalPositionNed::kId, 20},
            {dialect.estimator_message, 5},
            {RcChannels::kId, 5},

@@ -6,6 +6,7 @@
 
 #include "flight/bus/machine.h"
 #include "flight/bus/messages.h"
+#include "flight/bus/multicast.h"
 #include "flight/bus/occupancy_messages.h"
 #include "flight/bus/presence.h"
 #include "flight/bus/scan_messages.h"
@@ -149,6 +150,50 @@ TEST_F(WithRoute, OfControlAloneNothingLeavesTheMachineEither) {
   EXPECT_EQ(message_of([&] { (void)Bus::of_control(radio, "R1"); }),
             message_of([&] { Bus(radio, "R1"); }));
   EXPECT_NE(message_of([&] { (void)Bus::of_control(radio, "R1"); }), "");
+}
+
+/// What a receiver that subscribed to everything hears of what LCM sends to `sent`.
+std::vector<std::string> heard_of(const std::vector<std::string>& sent,
+                                  const std::vector<std::string>& let_in, std::size_t bytes = 8) {
+  lcm::LCM sender(BusConfig{}.control_url), receiver(BusConfig{}.control_url);
+  std::vector<std::string> heard;
+  receiver
+      .subscribeFunction(
+          ".*",
+          +[](const lcm::ReceiveBuffer*, const std::string& channel,
+              std::vector<std::string>* all) { all->push_back(channel); },
+          &heard)
+      ->setQueueCapacity(100);
+  (void)receiver.getFileno();
+  hear_channels_alone(multicast_group(BusConfig{}.control_url).port, let_in);
+  const std::string data(bytes, 'x');
+  for (const std::string& channel : sent)
+    sender.publish(channel, data.data(), static_cast<unsigned int>(data.size()));
+  while (receiver.handleTimeout(200) > 0) {
+  }
+  return heard;
+}
+
+TEST_F(WithRoute, OfChannelsThoseAloneAreHeardThatAreLetIn) {
+  const std::vector<std::string> sent = {"R1_STATE",    "R1_SETPOINT", "R1_SETPOINTS", "R1_SETPOIN",
+                                         "R2_SETPOINT", "R1_ODOMETRY", "R1_COMMAND"};
+  const std::vector<std::string> wanted = {"R1_SETPOINT", "R1_ODOMETRY", "R1_COMMAND"};
+  EXPECT_EQ(heard_of(sent, wanted), wanted);
+}
+
+TEST_F(WithRoute, AMessageShorterThanALongNameIsHeard) {
+  EXPECT_EQ(heard_of({"A", "AB"}, {std::string(60, 'L'), "A"}, 1), std::vector<std::string>{"A"});
+}
+
+TEST_F(WithRoute, NamesOfEveryLengthAreLetIn) {
+  std::vector<std::string> names;
+  for (std::size_t length = 1; length <= 40; ++length) names.emplace_back(length, 'N');
+  EXPECT_EQ(heard_of(names, names), names);
+}
+
+TEST_F(WithRoute, MessagesOfSeveralDatagramsAreNotLost) {
+  EXPECT_EQ(heard_of({"R1_OBJECTS"}, {"R1_OBJECTS"}, 200'000),
+            std::vector<std::string>{"R1_OBJECTS"});
 }
 
 TEST_F(WithRoute, WhatIsNoMessageIsCountedAndForgotten) {

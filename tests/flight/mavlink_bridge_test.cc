@@ -35,6 +35,25 @@ TEST_P(MavlinkFlight, ArmsTakesOffAndFollowsSetpointsAndLands) {
   EXPECT_EQ(flown_.bridge().counters().not_finite, 0);
 }
 
+TEST_P(MavlinkFlight, ASetpointGoesOutWhenItIsHeardAndNoTwoWithinTenMilliseconds) {
+  flown_.take_off();
+  flown_.setpoints_run = true;
+  flown_.run(3000 * kMs);
+  Setpoint setpoint;
+  setpoint.position = flown_.craft().place();
+  setpoint.velocity = setpoint.acceleration = Eigen::Vector3d::Zero();
+  setpoint.yaw = 0;
+  const auto sent_at = [&](Time now) {
+    setpoint.stamp = now;
+    setpoint.expiry = now + 200 * kMs;
+    flown_.bridge().hear(setpoint, now);
+    return flown_.bridge().take_frames().size();
+  };
+  EXPECT_EQ(sent_at(flown_.now() + 18 * kMs), 1u);
+  EXPECT_EQ(sent_at(flown_.now() + 27 * kMs), 0u);
+  EXPECT_EQ(sent_at(flown_.now() + 38 * kMs), 1u);
+}
+
 TEST_P(MavlinkFlight, NoSetpointGoesOutBeforeTheTakeOffIsOrdered) {
   flown_.setpoints_run = true;
   flown_.run(3000 * kMs);
@@ -103,6 +122,7 @@ TEST_P(MavlinkFlight, APilotHasItAtOnceAndForGood) {
   flown_.setpoints_run = true;
   flown_.run(3000 * kMs);
   flown_.autopilot().switch_mode(5);
+  flown_.run(10 * kMs);  // until its HEARTBEAT is there
   const int targets = flown_.sent<Target>();
   const std::size_t commands = flown_.commands.size();
   flown_.run(1000 * kMs);

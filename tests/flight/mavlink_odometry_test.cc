@@ -45,6 +45,20 @@ TEST_F(MavlinkOdometry, OfAHundredASecondThirtyToFortyGoOut) {
   EXPECT_LE(sent, 400);
 }
 
+TEST_F(MavlinkOdometry, WhatLaySomewhereIsBelievedAndDoesNotGoOut) {
+  const auto odometry = at(20 * kMs);
+  EXPECT_FALSE(out_.hear(odometry, kHost + 45 * kMs, false).message);
+  EXPECT_TRUE(out_.good(kHost + 45 * kMs));
+  EXPECT_TRUE(hear(at(30 * kMs)).message);
+}
+
+TEST_F(MavlinkOdometry, AResetGoesOutThoughItLaySomewhere) {
+  (void)hear(at(20 * kMs));
+  auto odometry = at(30 * kMs);
+  odometry.reset_counter = 1;
+  EXPECT_TRUE(out_.hear(odometry, kHost + 55 * kMs, false).message);
+}
+
 TEST_F(MavlinkOdometry, SaysPlaceInFrdVelocityInTheBodyAndWhatTheAutopilotsAccept) {
   const auto result = hear(at(20 * kMs));
   ASSERT_TRUE(result.message);
