@@ -183,6 +183,10 @@ void require_on_machine(const std::string& key, const std::string& url) {
 void hear_this_machine_alone(std::uint16_t port) { filter_sockets(port, machine_filter()); }
 
 void hear_channels_alone(std::uint16_t port, std::vector<std::string> channels) {
+  static const std::regex kName("[A-Z0-9_]+");
+  for (const std::string& name : channels)
+    if (!std::regex_match(name, kName))
+      throw Error("channel " + name + " to hear alone, expected capitals, digits and _");
   filter_sockets(port, channel_filter(std::move(channels)));
 }
 

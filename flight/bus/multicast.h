@@ -36,7 +36,8 @@ void hear_this_machine_alone(std::uint16_t port);
 
 /// The same, and of LCM's messages these channels alone: every other datagram of a busy network
 /// would wake its receiver to be thrown away. Messages of several datagrams come in whatever their
-/// channel. It holds for all that this process has on `port`. Throws Error as above.
+/// channel. It holds for all that this process has on `port`. Throws Error as above, and
+/// on a pattern of names: a filter compares letters.
 void hear_channels_alone(std::uint16_t port, std::vector<std::string> channels);
 
 /// The command that mends a missing route on this machine alone.

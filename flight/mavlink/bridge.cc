@@ -138,8 +138,7 @@ void Bridge::hear(const VehicleOdometry& odometry, Time now, bool fresh) {
 }
 
 void Bridge::hear(const Setpoint& setpoint, Time now) {
-  const bool taken = setpoints_.hear(mounting_.setpoint(setpoint), sensor_time(now));
-  if (taken && setpoint_.early(now)) send_setpoint(now);
+  setpoint_heard_ |= setpoints_.hear(mounting_.setpoint(setpoint), sensor_time(now));
 }
 
 void Bridge::hear(const Command& command, Time now) {
@@ -204,7 +203,8 @@ void Bridge::step(Time now, SigningTime signing_now) {
     send(message);
   }
   watch(now);
-  if (setpoint_.due(now)) send_setpoint(now);
+  const bool heard = std::exchange(setpoint_heard_, false);
+  if ((heard && setpoint_.early(now)) || setpoint_.due(now)) send_setpoint(now);
   send_orders(now);
 }
 

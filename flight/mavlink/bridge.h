@@ -108,6 +108,8 @@ class Bridge {
   TimeSync time_sync_;
   Timer heartbeat_{kNanosecondsPerSecond}, ask_{5 * kNanosecondsPerSecond},
       origin_{kNanosecondsPerSecond}, setpoint_{kNanosecondsPerSecond / 50};
+  // Since the last step, which sends it: what the line says of a pilot is read before.
+  bool setpoint_heard_ = false;
   std::vector<FrameBytes> frames_;
   std::vector<saker::CommandAck> direct_answers_;  // to orders that the commander does not have
   std::optional<Command> takeoff_;                 // by setpoints, waiting for the mode

@@ -181,6 +181,13 @@ TEST_F(WithRoute, OfChannelsThoseAloneAreHeardThatAreLetIn) {
   EXPECT_EQ(heard_of(sent, wanted), wanted);
 }
 
+TEST_F(WithRoute, APatternOfNamesIsRefused) {
+  EXPECT_EQ(message_of([] {
+              hear_channels_alone(7667, {"R1_STATE", ".*_STATE"});
+            }),
+            "channel .*_STATE to hear alone, expected capitals, digits and _");
+}
+
 TEST_F(WithRoute, AMessageShorterThanALongNameIsHeard) {
   EXPECT_EQ(heard_of({"A", "AB"}, {std::string(60, 'L'), "A"}, 1), std::vector<std::string>{"A"});
 }
