@@ -96,8 +96,8 @@ TEST_F(SafetyTest, HoldsForAPoseThatStandsStillBeforeTheFlightControllerComesDow
   const auto aged = [](double age_s) {
     return [age_s](SafetyInput& input) { input.odometry.stamp = input.now - from_seconds(age_s); };
   };
-  EXPECT_EQ(pass(1, aged(0.35)).action, SafetyAction::none);
-  const SafetyDecision held = pass(0.1, aged(0.45));
+  EXPECT_EQ(pass(1, aged(0.4)).action, SafetyAction::none);
+  const SafetyDecision held = pass(0.1, aged(0.47));
   EXPECT_EQ(held.action, SafetyAction::hold);
   EXPECT_EQ(held.cause, Cause::odometry_stale);
 }
