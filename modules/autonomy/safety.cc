@@ -10,6 +10,7 @@ constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
 constexpr double kContactHolds_s = 1;      // longer than safety is ever late
 constexpr double kDescent_mps = 0.5;       // slower than autopilots land
 constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
+constexpr double kPose_s = 0.4;      // 40 poses; flight controllers give up after 0.5 s
 
 /// "no scan for 0.7 s" or "no scan yet".
 core::Text silence_text(const char* what, Time last, Time now, double limit_s) {
@@ -49,7 +50,7 @@ void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) co
     listen(Cause::planning_stale, "plan", in.heard.planning, config_.planning_s);
   }
   listen(Cause::guidance_silent, "run of guidance", in.heard.guidance, kGuidance_s);
-  listen(Cause::odometry_stale, "pose", in.odometry.stamp, config_.odometry_s);
+  listen(Cause::odometry_stale, "pose", in.odometry.stamp, kPose_s);
 }
 
 /// Of the charge: there in a straight line, and down.

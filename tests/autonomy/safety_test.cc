@@ -91,6 +91,17 @@ TEST_F(SafetyTest, HoldsForWhateverFallsSilentAndThenLandsWithItsCause) {
   }
 }
 
+// A flight controller without poses comes down by itself after half a second: stops before it.
+TEST_F(SafetyTest, HoldsForAPoseThatStandsStillBeforeTheFlightControllerComesDown) {
+  const auto aged = [](double age_s) {
+    return [age_s](SafetyInput& input) { input.odometry.stamp = input.now - from_seconds(age_s); };
+  };
+  EXPECT_EQ(pass(1, aged(0.35)).action, SafetyAction::none);
+  const SafetyDecision held = pass(0.1, aged(0.45));
+  EXPECT_EQ(held.action, SafetyAction::hold);
+  EXPECT_EQ(held.cause, Cause::odometry_stale);
+}
+
 // Hazard: Odometry | no registered scan for 1 s, the inertial unit does not bridge it | no
 //   setpoints: the flight controller descends and lands, even when scans register again
 //   (`odometry_lost`) | –
