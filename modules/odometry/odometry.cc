@@ -1,6 +1,7 @@
 #include "saker/odometry/odometry.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -54,6 +55,8 @@ const char* to_string(OdometryStatus status) {
   switch (status) {
     case OdometryStatus::ok:
       return "ok";
+    case OdometryStatus::open:
+      return "open";
     case OdometryStatus::predicted:
       return "predicted";
     case OdometryStatus::refused:
@@ -72,6 +75,8 @@ const char* to_string(OdometryReason reason) {
       return "too few points";
     case OdometryReason::no_fit:
       return "does not fit the local map";
+    case OdometryReason::not_held:
+      return "nothing in sight holds the pose in a direction";
   }
   return "?";
 }
@@ -99,7 +104,7 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   remember(prediction, found);
   stamp_ = estimate.stamp;
   T_odom_stamp_ = estimate.T_odom_lidar;
-  if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
+  if (registered(estimate.status) || misfits_ >= config_.restart_after)
     add_to_map(scan, found.sweep);
   return estimate;
 }
@@ -234,15 +239,20 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
 }
 
 OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& prediction,
-                                  const Fit& fit) const {
+                                  const Fit& fit) {
   const bool fits = fit.reason == OdometryReason::none;
   OdometryEstimate estimate;
   estimate.stamp = scan.stamp;
   estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
-  estimate.covariance = fits ? drift(fit.registration.covariance, prediction, config_.drift_share)
-                             : prediction.motion_covariance;
+  estimate.covariance =
+      fits ? drift(fit.registration.held_covariance, prediction, config_.drift_share)
+           : prediction.motion_covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
+  if (fits && !held(estimate)) {
+    estimate.status = OdometryStatus::open;
+    estimate.reason = OdometryReason::not_held;
+  }
   estimate.points = fit.sweep.referred_to_stamp().deskewed(scan);
   estimate.diagnostics = {.points = static_cast<int>(registration_sample_.size()),
                           .iterations = fit.registration.iterations,
@@ -252,6 +262,19 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
                           .map_voxels = static_cast<int>(map_.size()),
                           .imu_used = prediction.inertial.has_value()};
   return estimate;
+}
+
+bool Odometry::held(const OdometryEstimate& estimate) {
+  const Eigen::Matrix3d R = estimate.T_odom_lidar.linear();
+  drifts_.push_back(
+      {estimate.stamp, R * estimate.covariance.bottomRightCorner<3, 3>() * R.transpose()});
+  std::erase_if(drifts_, [&](const Drift& drift) {
+    return drift.stamp <= estimate.stamp - kNanosecondsPerSecond;
+  });
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Drift& drift : drifts_) sum += drift.covariance;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[2] <= config_.most_drift_m * config_.most_drift_m;
 }
 
 void Odometry::remember(const Prediction& prediction, const Fit& fit) {

@@ -29,6 +29,7 @@ struct OdometryConfig {
   double prune_every_s = 1;
   int restart_after = 5;
   double drift_share = 0.25;
+  double most_drift_m = 0.1;
   double least_usual_share = 0.5;
   double least_unexpected_share = 0.8;
   double expected_sd = 3;
@@ -66,6 +67,9 @@ struct OdometryConfig {
         "of a registration's variance that stays as drift: a scan's noise goes with the next "
         "scan, but for its share in the map; on flights the error of 1 s is that of 0.1 to 0.4, of "
         "10 s that of 0.03 to 0.2, most over bare ground");
+    v.field("most_drift_m", most_drift_m, {0.001, 10}, "m",
+            "stated drift over the last second, sd in its worst direction; more, and nothing holds "
+            "the pose there: three of them are what a flight keeps clear of obstacles");
     v.field("least_usual_share", least_usual_share, {0, 1}, "",
             "of the share of points that usually lies on planes of the map; less, and the scan is "
             "not registered: from a wrong place some fit, too");
@@ -85,11 +89,17 @@ struct OdometryConfig {
 
 enum class OdometryStatus {
   ok,         ///< registered; the first scan defines `odom`
+  open,       ///< registered, but nothing holds the pose in a direction; `covariance` says how much
   predicted,  ///< the pose is the prediction; `reason` says why
   refused     ///< nothing changed; the pose is the last one
 };
 
-enum class OdometryReason { none, not_newer, too_few_points, no_fit };
+/// Whether the pose is the map's, to be mapped and flown with.
+[[nodiscard]] inline bool registered(OdometryStatus status) {
+  return status == OdometryStatus::ok || status == OdometryStatus::open;
+}
+
+enum class OdometryReason { none, not_newer, too_few_points, no_fit, not_held };
 
 [[nodiscard]] const char* to_string(OdometryStatus status);
 [[nodiscard]] const char* to_string(OdometryReason reason);
@@ -161,7 +171,11 @@ class Odometry {
   [[nodiscard]] OdometryReason judge(const RegistrationResult& result, std::size_t points,
                                      bool searched) const;
   [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
-                                        const Fit& fit) const;
+                                        const Fit& fit);
+
+  /// Whether the drift over the last second is small in all directions, that of this registered
+  /// scan included. What is not registered does not count: the map does not move with it.
+  [[nodiscard]] bool held(const OdometryEstimate& estimate);
 
   void thin(const lidar::Scan& scan);
   void keep_first(const lidar::Scan& scan);
@@ -172,6 +186,12 @@ class Odometry {
   void add_to_map(const lidar::Scan& scan, const Sweep& sweep);
   /// The scan's chosen points, deskewed, in scratch_.
   void deskew(const lidar::Scan& scan, const Sweep& sweep, std::span<const std::uint32_t> chosen);
+
+  /// What the motion to a registered scan added.
+  struct Drift {
+    Time stamp = 0;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the place, in `odom`
+  };
 
   /// The first scan's sample: nothing was known of the motion in it before the second one was
   /// registered.
@@ -195,9 +215,10 @@ class Odometry {
   Time stamp_ = 0;
   SE3 T_odom_stamp_ = SE3::Identity();  // the last estimate
   Time pruned_stamp_ = 0;
-  int misfits_ = 0;         // scans in a row
-  double usual_share_ = 0;  // of points on planes; 0: not known yet
-  FirstScan first_;         // emptied when it was put in again
+  int misfits_ = 0;            // scans in a row
+  std::vector<Drift> drifts_;  // of the last second
+  double usual_share_ = 0;     // of points on planes; 0: not known yet
+  FirstScan first_;            // emptied when it was put in again
   std::vector<std::uint32_t> map_sample_, registration_sample_, coarse_sample_;
   std::vector<Eigen::Vector3d> scratch_;
 };
