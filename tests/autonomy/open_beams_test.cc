@@ -105,6 +105,8 @@ struct Pane {
   }
 };
 
+// Hazard: Surroundings | glass, which swallows beams, stands in the way | nothing before or in a pane is
+//   taken for free: it stays unknown | –
 TEST_F(OpenBeamsTest, BeforeAndInAPaneNothingIsCleared) {
   core::Rng rng(4);
   int silent = 0, open = 0;
