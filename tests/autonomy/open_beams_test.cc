@@ -139,8 +139,8 @@ TEST_F(OpenBeamsTest, AGapOfATenthOfARadianTellsOnlyWhatIsFarAway) {
   for (int column = 0; column < scan.columns; ++column)
     for (int row = 0; row < scan.rows; ++row)
       if (std::abs(column - 100) > 4) at(row, column) = 10 * ray(row, column).direction;
-  const float from_m = occupancy::clears_from_m(filled(0, 100));  // 0.1 rad wide, 0.27 rad high
-  EXPECT_GT(from_m, 6 / 0.3F);
+  const float from_m = occupancy::clears_from_m(filled(0, 100));  // 0.1 rad wide, 0.37 rad high
+  EXPECT_GT(from_m, 6 / 0.37F);
   EXPECT_LT(from_m, 3.21F / 0.098F);
 }
 
