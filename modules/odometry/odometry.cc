@@ -75,6 +75,8 @@ const char* to_string(OdometryReason reason) {
       return "too few points";
     case OdometryReason::no_fit:
       return "does not fit the local map";
+    case OdometryReason::ambiguous:
+      return "fits several places of the local map";
     case OdometryReason::not_held:
       return "nothing in sight holds the pose in a direction";
   }
@@ -86,6 +88,7 @@ Odometry::Odometry(const OdometryConfig& config)
       map_(config_.map),
       registration_(config_.registration),
       search_(config_.search),
+      column_search_(config_.column_search),
       gate_(config_.gate),
       motion_(config_.motion),
       filter_(kMostSampledPoints) {}
@@ -99,7 +102,8 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   if (!started_) return start(scan);
   if (!first_.points.empty()) refine_first(scan);
 
-  auto [prediction, found] = most_likely(scan);
+  auto from_there = from_found(scan);
+  auto [prediction, found] = from_there ? std::move(*from_there) : most_likely(scan);
   OdometryEstimate estimate = report(scan, prediction, found);
   remember(prediction, found);
   stamp_ = estimate.stamp;
@@ -107,6 +111,18 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   if (registered(estimate.status) || misfits_ >= config_.restart_after)
     add_to_map(scan, found.sweep);
   return estimate;
+}
+
+std::optional<std::pair<Prediction, Odometry::Fit>> Odometry::from_found(const lidar::Scan& scan) {
+  if (!found_) return std::nullopt;
+  std::swap(motion_, *found_);
+  Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
+  Fit found = fit(scan, prediction);
+  const bool fits = found.reason == OdometryReason::none;
+  if (!fits) std::swap(motion_, *found_);
+  found_.reset();
+  if (!fits) return std::nullopt;
+  return std::pair{std::move(prediction), std::move(found)};
 }
 
 /// The prediction, unless another one explains the scan where it does not.
@@ -195,20 +211,33 @@ OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t poi
                                                             : OdometryReason::no_fit;
 }
 
-SE3 Odometry::start_of(const lidar::Scan& scan, const Prediction& prediction, double gate_m) {
-  const SE3& predicted = prediction.prior.T_odom_lidar;
-  if (!search_.worthwhile(prediction.prior)) return predicted;
-  deskew(scan, motion_.sweep(prediction, predicted, Sweep::span_of(scan), imu_.samples()),
-         coarse_sample_);
-  RegistrationResult best =
-      registration_.align(scratch_, prediction.prior, predicted, map_, gate_m);
-  SE3 start = predicted;
-  for (const SE3& from : search_.starts(scratch_, prediction.prior, map_)) {
-    const RegistrationResult other =
-        registration_.align(scratch_, prediction.prior, from, map_, gate_m);
-    if (other.inliers < kClearlyMore * best.inliers) continue;
-    best = other;
-    start = other.T_odom_lidar;
+Odometry::Start Odometry::start_of(const lidar::Scan& scan, const Prediction& prediction,
+                                   double gate_m) {
+  const PosePrior& prior = prediction.prior;
+  Start start{prior.T_odom_lidar};
+  if (!search_.worthwhile(prior)) return start;
+  const Sweep sweep =
+      motion_.sweep(prediction, prior.T_odom_lidar, Sweep::span_of(scan), imu_.samples());
+  std::vector<SE3> starts;
+  const bool near = search_.covers(prior);
+  if (!near) {
+    deskew(scan, sweep, registration_sample_);
+    starts = column_search_.starts(scratch_, prior, map_);
+  }
+  deskew(scan, sweep, coarse_sample_);
+  if (near) starts = search_.starts(scratch_, prior, map_);
+  RegistrationResult best = registration_.align(scratch_, prior, prior.T_odom_lidar, map_, gate_m);
+  for (const SE3& from : starts) {
+    const RegistrationResult other = registration_.align(scratch_, prior, from, map_, gate_m);
+    const bool elsewhere =
+        (other.T_odom_lidar.translation() - best.T_odom_lidar.translation()).norm() > gate_m;
+    if (other.inliers >= kClearlyMore * best.inliers) {
+      best = other;
+      start = {other.T_odom_lidar, true, false};
+      if (!near) start.found = other;
+    } else if (!near && elsewhere && kClearlyMore * other.inliers > best.inliers) {
+      start.ambiguous = true;
+    }
   }
   return start;
 }
@@ -218,9 +247,8 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
   const SE3& predicted = prediction.prior.T_odom_lidar;
   Fit fit;
   fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
-  const SE3 start = start_of(scan, prediction, fit.gate_m);
-  const bool searched = !start.isApprox(predicted);
-  fit.registration.T_odom_lidar = start;
+  const Start start = start_of(scan, prediction, fit.gate_m);
+  fit.registration.T_odom_lidar = start.T_odom_lidar;
   const int rounds = span == 0 ? 1 : config_.deskew_rounds;
   for (int round = 0; round < rounds && fit.reason == OdometryReason::none; ++round) {
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
@@ -228,10 +256,12 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
     deskew(scan, fit.sweep, round + 1 < rounds ? coarse_sample_ : registration_sample_);
     fit.registration =
         registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
-    fit.reason = judge(fit.registration, scratch_.size(), searched);
+    fit.reason = judge(fit.registration, scratch_.size(), start.searched);
   }
   fit.share = share_of(fit.registration, scratch_.size());
+  if (fit.reason == OdometryReason::none && start.ambiguous) fit.reason = OdometryReason::ambiguous;
   const bool fits = fit.reason == OdometryReason::none;
+  if (!fits && !start.ambiguous) fit.found = start.found;
   if (!fits) fit.registration.T_odom_lidar = predicted;
   if (!fits) fit.registration.covariance = prediction.prior.covariance;
   fit.sweep = motion_.sweep(prediction, fit.registration.T_odom_lidar, span, imu_.samples());
@@ -245,7 +275,8 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
   estimate.stamp = scan.stamp;
   estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
   estimate.covariance =
-      fits ? drift(fit.registration.held_covariance, prediction, config_.drift_share)
+      fits ? drift(fit.registration.held_covariance, prediction, config_.drift_share) +
+                 motion_.half_sweep_covariance(prediction, Sweep::span_of(scan))
            : prediction.motion_covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
@@ -286,8 +317,12 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
     misfits_ = 0;
     return;
   }
+  if (fit.found) {
+    found_ = motion_;
+    found_->accept(prediction, fit.found->T_odom_lidar, fit.found->covariance);
+  }
   motion_.coast(prediction);
-  misfits_ += fit.reason == OdometryReason::no_fit;
+  misfits_ += fit.reason == OdometryReason::no_fit || fit.reason == OdometryReason::ambiguous;
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
   gate_.reset();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "saker/core/se3.h"
 #include "saker/lidar/scan.h"
 #include "saker/odometry/adaptive_gate.h"
+#include "saker/odometry/column_search.h"
 #include "saker/odometry/imu_buffer.h"
 #include "saker/odometry/motion_model.h"
 #include "saker/odometry/pose_search.h"
@@ -37,6 +39,7 @@ struct OdometryConfig {
   VoxelMapConfig map;
   RegistrationConfig registration;
   PoseSearchConfig search;
+  ColumnSearchConfig column_search;
   AdaptiveGateConfig gate;
   MotionConfig motion;
 
@@ -82,6 +85,8 @@ struct OdometryConfig {
     v.group("map", map, "the local map");
     v.group("registration", registration, "scan to map");
     v.group("search", search, "where registration starts when the prediction is not sure enough");
+    v.group("column_search", column_search,
+            "the same where it leaves more open than that search covers");
     v.group("gate", gate, "how far a point may be from the map");
     v.group("motion", motion, "prediction");
   }
@@ -99,7 +104,7 @@ enum class OdometryStatus {
   return status == OdometryStatus::ok || status == OdometryStatus::open;
 }
 
-enum class OdometryReason { none, not_newer, too_few_points, no_fit, not_held };
+enum class OdometryReason { none, not_newer, too_few_points, no_fit, ambiguous, not_held };
 
 [[nodiscard]] const char* to_string(OdometryStatus status);
 [[nodiscard]] const char* to_string(OdometryReason reason);
@@ -151,23 +156,34 @@ class Odometry {
                                                std::span<const lidar::ImuSample> imu);
 
  private:
+  /// Where registration starts.
+  struct Start {
+    SE3 T_odom_lidar;
+    bool searched = false;   ///< not where the prediction pointed to
+    bool ambiguous = false;  ///< another place explains the scan as well
+    std::optional<RegistrationResult> found = std::nullopt;  ///< somewhere in the whole map
+  };
+
   struct Fit {
     RegistrationResult registration;
     Sweep sweep;
     double gate_m = 0;
     double share = 0;  ///< of the points, on planes
     OdometryReason reason = OdometryReason::none;
+    std::optional<RegistrationResult> found = std::nullopt;  ///< Start's, where it does not fit
   };
 
+  /// From the place that the last scan was found at, if this scan fits there.
+  [[nodiscard]] std::optional<std::pair<Prediction, Fit>> from_found(const lidar::Scan& scan);
   [[nodiscard]] std::pair<Prediction, Fit> most_likely(const lidar::Scan& scan);
   [[nodiscard]] static bool more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
                                         const Prediction& of_b);
   [[nodiscard]] OdometryEstimate start(const lidar::Scan& scan);
   [[nodiscard]] OdometryEstimate refused(const lidar::Scan& scan) const;
   [[nodiscard]] Fit fit(const lidar::Scan& scan, const Prediction& prediction);
-  /// Where registration starts: the prediction or, where it leaves too much open, what most points
-  /// fit.
-  [[nodiscard]] SE3 start_of(const lidar::Scan& scan, const Prediction& prediction, double gate_m);
+  /// The prediction or, where it leaves too much open, what most points fit.
+  [[nodiscard]] Start start_of(const lidar::Scan& scan, const Prediction& prediction,
+                               double gate_m);
   [[nodiscard]] OdometryReason judge(const RegistrationResult& result, std::size_t points,
                                      bool searched) const;
   [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
@@ -206,8 +222,12 @@ class Odometry {
   VoxelMap map_;
   Registration registration_;
   PoseSearch search_;
+  ColumnSearch column_search_;
   AdaptiveGate gate_;
   MotionModel motion_;
+  /// Taken to be where the last scan was found in the whole map, which one scan does not prove: how
+  /// it moved in the scan is not known. The next one does.
+  std::optional<MotionModel> found_;
   VoxelFilter filter_;
   ImuBuffer imu_;
 
