@@ -19,11 +19,11 @@ namespace saker::autonomy {
 /// is one that leads down to the ground: what swallows it is there, polished black paint or water.
 ///
 /// Glass swallows a beam at any range, but a pane ends at a frame, which answers: float glass is
-/// made 3.21 m by 6 m at most. Around a beam nothing answers over the angles α left and β right, so
-/// a pane at range r would be at least r (sin α + sin β) wide, and likewise high; where that is
-/// more than is made nothing but air is there. From there on the beam clears, nearer it tells
-/// nothing: between two trees from some 7 m on, in the open sky at once. Frames thinner than
-/// beams are apart are missed by some scans, not by all. Black paint answers within the range that
+/// sold 3.21 m by 6 m, longer only to order. Around a beam nothing answers over the angles α left
+/// and β right, so a pane at range r would be at least r (sin α + sin β) wide, and likewise high;
+/// where that is more than is sold nothing but air is there. From there on the beam clears, nearer
+/// it tells nothing: between two trees from some 7 m on, in the open sky at once. A facade whose
+/// frames are thinner than beams are apart is not known. Black paint answers within the range that
 /// is mapped (occupancy.range_m 15 m; an OS0 is rated 35 m at 10 %: 19 m at 3 %).
 class OpenBeams {
  public:

@@ -50,7 +50,7 @@ void Safety::find_silence(const SafetyInput& in, std::vector<Finding>& found) co
     listen(Cause::planning_stale, "plan", in.heard.planning, config_.planning_s);
   }
   listen(Cause::guidance_silent, "run of guidance", in.heard.guidance, kGuidance_s);
-  listen(Cause::odometry_stale, "pose", in.odometry.stamp, kPose_s);
+  listen(Cause::odometry_stale, "pose", in.odometry.stamp, std::min(kPose_s, config_.odometry_s));
 }
 
 /// Of the charge: there in a straight line, and down.

@@ -117,7 +117,10 @@ struct Node {
   int angle = 0;
   Cell shift = Cell::Zero();
 
-  bool operator<(const Node& other) const { return bound < other.bound; }
+  /// Deeper first among equals.
+  bool operator<(const Node& other) const {
+    return bound != other.bound ? bound < other.bound : level > other.level;
+  }
 };
 
 /// The scan's columns at one heading, in cells.
@@ -133,8 +136,8 @@ struct Turned {
 };
 
 std::vector<Eigen::Vector2d> every_nth(const std::vector<Eigen::Vector2d>& places, int about) {
-  const std::size_t stride =
-      std::max<std::size_t>(1, places.size() / static_cast<std::size_t>(about));
+  const auto most = static_cast<std::size_t>(about);
+  const std::size_t stride = std::max<std::size_t>(1, (places.size() + most - 1) / most);
   std::vector<Eigen::Vector2d> some;
   for (std::size_t i = 0; i < places.size(); i += stride) some.push_back(places[i]);
   return some;
@@ -179,17 +182,18 @@ Reach reach_of(const PosePrior& prior, const ColumnSearchConfig& config) {
 /// Leaves by their score, best first.
 class Search {
  public:
-  Search(const Windows& windows, const std::vector<Turned>& headings, int half)
-      : windows_(windows), headings_(headings), half_(half) {
+  Search(const Windows& windows, const std::vector<Turned>& headings, int half, int most_scored)
+      : windows_(windows), headings_(headings), half_(half), left_(most_scored) {
     const int widest = 1 << (kLevels - 1);
     for (int angle = 0; angle < static_cast<int>(headings.size()); ++angle)
       for (int y = -half; y <= half; y += widest)
         for (int x = -half; x <= half; x += widest) push(kLevels - 1, angle, {x, y});
   }
 
-  [[nodiscard]] std::vector<Node> best(int kept, int most_nodes) {
+  /// None where it runs out: whether another is better is not known then.
+  [[nodiscard]] std::vector<Node> best(int kept) {
     std::vector<Node> taken;
-    for (int n = 0; n < most_nodes && !open_.empty() && std::ssize(taken) < kept; ++n) {
+    while (!open_.empty() && left_ > 0 && std::ssize(taken) < kept) {
       const Node node = open_.top();
       open_.pop();
       if (node.level > 0)
@@ -198,6 +202,7 @@ class Search {
                             [&](const Node& other) { return beside(node, other); }))
         taken.push_back(node);
     }
+    if (left_ <= 0) taken.clear();
     return taken;
   }
 
@@ -214,7 +219,8 @@ class Search {
   }
 
   void push(int level, int angle, const Cell& shift) {
-    if (shift.maxCoeff() > half_) return;
+    if (shift.maxCoeff() > half_ || left_ <= 0) return;
+    --left_;
     const Turned& heading = headings_[static_cast<std::size_t>(angle)];
     open_.push({heading.score(windows_, level, shift), level, angle, shift});
   }
@@ -222,6 +228,7 @@ class Search {
   const Windows& windows_;
   const std::vector<Turned>& headings_;
   int half_;
+  int left_;  // windows that may still be scored
   std::priority_queue<Node> open_;
 };
 
@@ -233,18 +240,20 @@ std::vector<SE3> ColumnSearch::starts(std::span<const Eigen::Vector3d> points,
   const SE3& T = prior.T_odom_lidar;
   const Reach reach = reach_of(prior, config_);
   Columns of_map(cell_m), of_scan(cell_m);
-  map.each_voxel([&](const Eigen::Vector3d& mean) { of_map.add(mean); });
   for (const Eigen::Vector3d& p : points) of_scan.add(T.linear() * p);
-  const std::vector<Eigen::Vector2d> there = of_map.places(config_.height_m);
   const std::vector<Eigen::Vector2d> here =
       every_nth(of_scan.places(config_.height_m), config_.columns);
-  if (there.empty() || here.empty() || !std::isfinite(reach.place_m + reach.heading_rad)) return {};
+  if (here.empty() || !std::isfinite(reach.place_m + reach.heading_rad)) return {};
+  map.each_voxel([&](const Eigen::Vector3d& mean) { of_map.add(mean); });
+  const std::vector<Eigen::Vector2d> there = of_map.places(config_.height_m);
+  if (there.empty()) return {};
 
   const Windows windows(there, cell_m);
   const std::vector<Turned> headings = turned(here, T, reach.heading_rad, cell_m);
-  Search search(windows, headings, static_cast<int>(std::ceil(reach.place_m / cell_m)));
+  const int half = static_cast<int>(std::ceil(reach.place_m / cell_m));
+  Search search(windows, headings, half, config_.most_scored);
   std::vector<SE3> starts;
-  for (const Node& node : search.best(config_.kept, config_.most_nodes)) {
+  for (const Node& node : search.best(config_.kept)) {
     SE3& start = starts.emplace_back(T);
     const double turn = headings[static_cast<std::size_t>(node.angle)].radians;
     start.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * T.linear();

@@ -35,12 +35,29 @@ Matrix6d drift(const Matrix6d& posterior, const Prediction& prediction, double s
   return 0.5 * (sum + sum.transpose());
 }
 
+Eigen::Matrix3d place_in_odom(const SE3& T_odom_lidar, const Matrix6d& covariance) {
+  const Eigen::Matrix3d R = T_odom_lidar.linear();
+  return R * covariance.bottomRightCorner<3, 3>() * R.transpose();
+}
+
 double share_of(const RegistrationResult& result, std::size_t points) {
   return static_cast<double>(result.inliers) /
          static_cast<double>(std::max<std::size_t>(points, 1));
 }
 
 constexpr double kClearlyMore = 1.05;  // of inliers: noise makes less of a difference
+
+constexpr double kLostIntervals = 3;  // without a registered scan
+
+constexpr int kPolish = 3;  // more registrations of what has not converged
+
+constexpr double kElsewhere_m = 1, kElsewhere_rad = 0.1;  // more than registration errs by
+
+bool elsewhere(const SE3& a, const SE3& b) {
+  const SE3 apart = a.inverse() * b;
+  return apart.translation().norm() > kElsewhere_m ||
+         core::so3_log(apart.linear()).norm() > kElsewhere_rad;
+}
 
 /// Twice the negative log density of the pose under its prediction.
 double surprise(const SE3& T_odom_lidar, const PosePrior& prior) {
@@ -117,7 +134,7 @@ std::optional<std::pair<Prediction, Odometry::Fit>> Odometry::from_found(const l
   if (!found_) return std::nullopt;
   std::swap(motion_, *found_);
   Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
-  Fit found = fit(scan, prediction);
+  Fit found = fit(scan, prediction, Trust::found);
   const bool fits = found.reason == OdometryReason::none;
   if (!fits) std::swap(motion_, *found_);
   found_.reset();
@@ -135,8 +152,10 @@ std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& sc
   if (!other && prediction.inertial && found.reason == OdometryReason::no_fit && misfits_ > 0)
     other = motion_.predict_without_imu(moment);
   if (!other) return {prediction, std::move(found)};
-  Fit found_otherwise = fit(scan, *other);
-  if (!more_likely(found_otherwise, *other, found, prediction))
+  Fit found_otherwise = fit(scan, *other, Trust::none);
+  if (prediction.inertial) found_otherwise.found.reset();  // it knows where the scan was taken
+  const bool proof_follows = found.found && found_otherwise.reason != OdometryReason::none;
+  if (proof_follows || !more_likely(found_otherwise, *other, found, prediction))
     return {prediction, std::move(found)};
   return {*other, std::move(found_otherwise)};
 }
@@ -144,6 +163,7 @@ std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& sc
 /// Which of two predictions explains the scan: points first, then the motion.
 bool Odometry::more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
                            const Prediction& of_b) {
+  if (b.reason == OdometryReason::ambiguous && a.share <= kClearlyMore * b.share) return false;
   const bool a_fits = a.reason == OdometryReason::none, b_fits = b.reason == OdometryReason::none;
   if (a_fits != b_fits) return a_fits;
   if (a.share > kClearlyMore * b.share) return true;
@@ -202,52 +222,71 @@ void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
 }
 
 OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t points,
-                               bool searched) const {
+                               double least_share) const {
   if (!registration_.enough(points)) return OdometryReason::too_few_points;
-  const bool expected = !searched && result.deviation_sd <= config_.expected_sd;
-  const double least = expected ? config_.least_usual_share : config_.least_unexpected_share;
-  const bool usual = share_of(result, points) >= least * usual_share_;
+  const bool usual = share_of(result, points) >= least_share * usual_share_;
   return usual && registration_.trustworthy(result, points) ? OdometryReason::none
                                                             : OdometryReason::no_fit;
+}
+
+bool Odometry::lost(const Prediction& prediction) const {
+  return prediction.seconds > kLostIntervals * motion_.usual_interval_s() &&
+         !search_.covers(prediction.prior);
+}
+
+std::vector<SE3> Odometry::far_starts(const lidar::Scan& scan, const Prediction& prediction,
+                                      const Sweep& sweep) {
+  if (!lost(prediction)) return {};
+  deskew(scan, sweep, registration_sample_);
+  return column_search_.starts(scratch_, prediction.prior, map_);
 }
 
 Odometry::Start Odometry::start_of(const lidar::Scan& scan, const Prediction& prediction,
                                    double gate_m) {
   const PosePrior& prior = prediction.prior;
   Start start{prior.T_odom_lidar};
-  if (!search_.worthwhile(prior)) return start;
+  if (!search_.worthwhile(prior) || !registration_.enough(registration_sample_.size()))
+    return start;
   const Sweep sweep =
       motion_.sweep(prediction, prior.T_odom_lidar, Sweep::span_of(scan), imu_.samples());
-  std::vector<SE3> starts;
-  const bool near = search_.covers(prior);
-  if (!near) {
-    deskew(scan, sweep, registration_sample_);
-    starts = column_search_.starts(scratch_, prior, map_);
-  }
+  const std::vector<SE3> far = far_starts(scan, prediction, sweep);
   deskew(scan, sweep, coarse_sample_);
-  if (near) starts = search_.starts(scratch_, prior, map_);
-  RegistrationResult best = registration_.align(scratch_, prior, prior.T_odom_lidar, map_, gate_m);
+  const std::vector<SE3> starts = far.empty() ? search_.starts(scratch_, prior, map_) : far;
+  std::vector<RegistrationResult> tried = {
+      registration_.align(scratch_, prior, prior.T_odom_lidar, map_, gate_m)};
+  std::size_t best = 0;
   for (const SE3& from : starts) {
-    const RegistrationResult other = registration_.align(scratch_, prior, from, map_, gate_m);
-    const bool elsewhere =
-        (other.T_odom_lidar.translation() - best.T_odom_lidar.translation()).norm() > gate_m;
-    if (other.inliers >= kClearlyMore * best.inliers) {
-      best = other;
-      start = {other.T_odom_lidar, true, false};
-      if (!near) start.found = other;
-    } else if (!near && elsewhere && kClearlyMore * other.inliers > best.inliers) {
-      start.ambiguous = true;
-    }
+    tried.push_back(registration_.align(scratch_, prior, from, map_, gate_m));
+    if (tried.back().inliers >= kClearlyMore * tried[best].inliers) best = tried.size() - 1;
   }
+  if (best > 0) start = {tried[best].T_odom_lidar, true};
+  if (far.empty()) return start;
+  const auto polished = [&](RegistrationResult result) {
+    for (int round = 0; round < kPolish && !result.converged; ++round)
+      result = registration_.align(scratch_, prior, result.T_odom_lidar, map_, gate_m);
+    return result;
+  };
+  tried[best] = polished(tried[best]);
+  if (best > 0) start.T_odom_lidar = tried[best].T_odom_lidar;
+  const auto rivals = [&](const RegistrationResult& other) {
+    return kClearlyMore * other.inliers > tried[best].inliers &&
+           elsewhere(other.T_odom_lidar, tried[best].T_odom_lidar);
+  };
+  start.ambiguous = std::any_of(tried.begin(), tried.end(), [&](const RegistrationResult& other) {
+    return rivals(other) && rivals(polished(other));
+  });
+  if (start.searched && !start.ambiguous && registration_.trustworthy(tried[best], scratch_.size()))
+    start.found = tried[best];
   return start;
 }
 
-Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction) {
+Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction, Trust trust) {
   const Time span = Sweep::span_of(scan);
   const SE3& predicted = prediction.prior.T_odom_lidar;
   Fit fit;
   fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
   const Start start = start_of(scan, prediction, fit.gate_m);
+  const bool pointed_to = trust == Trust::prediction && !start.searched && !lost(prediction);
   fit.registration.T_odom_lidar = start.T_odom_lidar;
   const int rounds = span == 0 ? 1 : config_.deskew_rounds;
   for (int round = 0; round < rounds && fit.reason == OdometryReason::none; ++round) {
@@ -256,12 +295,16 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
     deskew(scan, fit.sweep, round + 1 < rounds ? coarse_sample_ : registration_sample_);
     fit.registration =
         registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
-    fit.reason = judge(fit.registration, scratch_.size(), start.searched);
+    const bool expected = pointed_to && fit.registration.deviation_sd <= config_.expected_sd;
+    const double least = trust == Trust::found ? config_.least_found_share
+                         : expected            ? config_.least_usual_share
+                                               : config_.least_unexpected_share;
+    fit.reason = judge(fit.registration, scratch_.size(), least);
   }
   fit.share = share_of(fit.registration, scratch_.size());
   if (fit.reason == OdometryReason::none && start.ambiguous) fit.reason = OdometryReason::ambiguous;
   const bool fits = fit.reason == OdometryReason::none;
-  if (!fits && !start.ambiguous) fit.found = start.found;
+  if (!fits) fit.found = start.found;
   if (!fits) fit.registration.T_odom_lidar = predicted;
   if (!fits) fit.registration.covariance = prediction.prior.covariance;
   fit.sweep = motion_.sweep(prediction, fit.registration.T_odom_lidar, span, imu_.samples());
@@ -275,8 +318,7 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
   estimate.stamp = scan.stamp;
   estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
   estimate.covariance =
-      fits ? drift(fit.registration.held_covariance, prediction, config_.drift_share) +
-                 motion_.half_sweep_covariance(prediction, Sweep::span_of(scan))
+      fits ? drift(fit.registration.held_covariance, prediction, config_.drift_share)
            : prediction.motion_covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
@@ -284,6 +326,7 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
     estimate.status = OdometryStatus::open;
     estimate.reason = OdometryReason::not_held;
   }
+  if (fits) estimate.covariance += motion_.half_sweep_covariance(prediction, Sweep::span_of(scan));
   estimate.points = fit.sweep.referred_to_stamp().deskewed(scan);
   estimate.diagnostics = {.points = static_cast<int>(registration_sample_.size()),
                           .iterations = fit.registration.iterations,
@@ -296,9 +339,7 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
 }
 
 bool Odometry::held(const OdometryEstimate& estimate) {
-  const Eigen::Matrix3d R = estimate.T_odom_lidar.linear();
-  drifts_.push_back(
-      {estimate.stamp, R * estimate.covariance.bottomRightCorner<3, 3>() * R.transpose()});
+  drifts_.push_back({estimate.stamp, place_in_odom(estimate.T_odom_lidar, estimate.covariance)});
   std::erase_if(drifts_, [&](const Drift& drift) {
     return drift.stamp <= estimate.stamp - kNanosecondsPerSecond;
   });
@@ -325,6 +366,9 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   misfits_ += fit.reason == OdometryReason::no_fit || fit.reason == OdometryReason::ambiguous;
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
+  found_.reset();
+  drifts_.push_back(
+      {stamp_, place_in_odom(prediction.prior.T_odom_lidar, prediction.prior.covariance)});
   gate_.reset();
   usual_share_ = 0;
 }

@@ -34,6 +34,7 @@ struct OdometryConfig {
   double most_drift_m = 0.1;
   double least_usual_share = 0.5;
   double least_unexpected_share = 0.8;
+  double least_found_share = 0.6;
   double expected_sd = 3;
   double share_memory = 0.9;
   VoxelMapConfig map;
@@ -64,7 +65,8 @@ struct OdometryConfig {
     v.field("prune_every_s", prune_every_s, {0, 60}, "s",
             "how often far and old voxels are dropped");
     v.field("restart_after", restart_after, {1, 1000}, "",
-            "scans in a row that do not fit the map, until a new map begins at the prediction");
+            "scans in a row that do not fit one place of the map, until a new one begins at the "
+            "prediction");
     v.field(
         "drift_share", drift_share, {0, 2}, "",
         "of a registration's variance that stays as drift: a scan's noise goes with the next "
@@ -78,6 +80,9 @@ struct OdometryConfig {
             "not registered: from a wrong place some fit, too");
     v.field("least_unexpected_share", least_unexpected_share, {0, 1}, "",
             "the same where the pose is not one that the prediction pointed to");
+    v.field("least_found_share", least_found_share, {0, 1}, "",
+            "the same where the scan before was found there, too: in made streets 0.7 to 0.9 in "
+            "the right place, and 0.6 in one that the map lacks");
     v.field("expected_sd", expected_sd, {1, 100}, "",
             "from the prediction, a dimension: farther, and the pose is not expected");
     v.field("share_memory", share_memory, {0, 0.999}, "",
@@ -145,7 +150,8 @@ struct OdometryEstimate {
 /// (pose_search.h). Sources: gate and two thinnings, Vizzo
 /// et al., "KISS-ICP" (RA-L 2023), sec. III; planes of voxels, Yuan et al., "VoxelMap" (RA-L 2022),
 /// sec. III; deskewing by the motion between two scans, Dellenbach et al., "CT-ICP" (ICRA 2022).
-/// Cost: its README. One thread; after the first scans only the estimate's points are allocated.
+/// Cost: its README. One thread; after the first scans searches and the estimate's points are
+/// allocated, nothing else.
 class Odometry {
  public:
   explicit Odometry(const OdometryConfig& config);  ///< throws Error on an invalid value
@@ -164,6 +170,14 @@ class Odometry {
     std::optional<RegistrationResult> found = std::nullopt;  ///< somewhere in the whole map
   };
 
+  /// What else than the scan says that it was taken there: with nothing as much has to fit as
+  /// usual.
+  enum class Trust {
+    none,
+    prediction,  ///< where it points to one place
+    found        ///< the scan before was found there, too
+  };
+
   struct Fit {
     RegistrationResult registration;
     Sweep sweep;
@@ -180,17 +194,25 @@ class Odometry {
                                         const Prediction& of_b);
   [[nodiscard]] OdometryEstimate start(const lidar::Scan& scan);
   [[nodiscard]] OdometryEstimate refused(const lidar::Scan& scan) const;
-  [[nodiscard]] Fit fit(const lidar::Scan& scan, const Prediction& prediction);
+  [[nodiscard]] Fit fit(const lidar::Scan& scan, const Prediction& prediction,
+                        Trust trust = Trust::prediction);
   /// The prediction or, where it leaves too much open, what most points fit.
+  /// Scans without a registered one have left more open than the near search covers.
+  [[nodiscard]] bool lost(const Prediction& prediction) const;
+  /// In the whole map, where scans without a registered one have left more open than the near
+  /// search covers.
+  [[nodiscard]] std::vector<SE3> far_starts(const lidar::Scan& scan, const Prediction& prediction,
+                                            const Sweep& sweep);
   [[nodiscard]] Start start_of(const lidar::Scan& scan, const Prediction& prediction,
                                double gate_m);
   [[nodiscard]] OdometryReason judge(const RegistrationResult& result, std::size_t points,
-                                     bool searched) const;
+                                     double least_share) const;
   [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
                                         const Fit& fit);
 
-  /// Whether the drift over the last second is small in all directions, that of this registered
-  /// scan included. What is not registered does not count: the map does not move with it.
+  /// Adds a registered scan's drift; whether that over the last second is small in all directions.
+  /// Of what is not registered nothing counts but where a new map begins: the old one does not move
+  /// with it.
   [[nodiscard]] bool held(const OdometryEstimate& estimate);
 
   void thin(const lidar::Scan& scan);

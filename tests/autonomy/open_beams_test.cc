@@ -105,8 +105,8 @@ struct Pane {
   }
 };
 
-// Hazard: Surroundings | glass, which swallows beams, stands in the way | nothing before or in a pane is
-//   taken for free: it stays unknown | –
+// Hazard: Surroundings | a pane of glass (up to 3.2 m by 6 m, in a frame that answers) swallows
+//   beams | nothing before or in it is taken for free: it stays unknown | –
 TEST_F(OpenBeamsTest, BeforeAndInAPaneNothingIsCleared) {
   core::Rng rng(4);
   int silent = 0, open = 0;

@@ -88,7 +88,10 @@ TEST_F(ColumnSearchTest, NothingIsSearchedBeyondWhatThePriorLeavesOpen) {
   const SE3 from = pose(-21, 4, 1.9);
   const double sd_m = 2, cell_m = map.voxel_m();
   const ColumnSearchConfig config;
-  for (const SE3& start : ColumnSearch(config).starts(points, prior_at(from, sd_m, 0.01), map)) {
+  const std::vector<SE3> starts =
+      ColumnSearch(config).starts(points, prior_at(from, sd_m, 0.01), map);
+  ASSERT_FALSE(starts.empty());
+  for (const SE3& start : starts) {
     const Eigen::Vector3d off = start.translation() - from.translation();
     EXPECT_LE(off.head<2>().cwiseAbs().maxCoeff(), config.reach_sd * sd_m + cell_m);
   }
@@ -103,11 +106,10 @@ TEST_F(ColumnSearchTest, StartsAreApart) {
                 3 * map.voxel_m());
 }
 
-TEST_F(ColumnSearchTest, EndsWhenItHasLookedAtAsManyAsItMay) {
+TEST_F(ColumnSearchTest, WhereItMayNotLookAtAllPlacesItFindsNone) {
   ColumnSearchConfig config;
-  config.most_nodes = 100;
-  EXPECT_LE(std::ssize(ColumnSearch(config).starts(points, prior_at(truth, 1e6, 10), map)),
-            config.kept);
+  config.most_scored = 100;
+  EXPECT_TRUE(ColumnSearch(config).starts(points, prior_at(truth, 1e6, 10), map).empty());
 }
 
 TEST_F(ColumnSearchTest, WithoutColumnsThereIsNoStart) {
