@@ -14,12 +14,6 @@ constexpr std::size_t kMostSampledPoints =
 
 constexpr Time kImuMemory = 3 * kNanosecondsPerSecond;  // before the last scan
 
-/// The moment whose pose is registered: the middle of the scan (see Sweep).
-Time moment_of(const lidar::Scan& scan) {
-  const Time span = Sweep::span_of(scan);
-  return scan.stamp - (span - span / 2);
-}
-
 std::int32_t offset_of(const lidar::Scan& scan, std::size_t i) {
   return i < scan.offset_ns.size() ? scan.offset_ns[i] : 0;
 }
@@ -43,27 +37,6 @@ Eigen::Matrix3d place_in_odom(const SE3& T_odom_lidar, const Matrix6d& covarianc
 double share_of(const RegistrationResult& result, std::size_t points) {
   return static_cast<double>(result.inliers) /
          static_cast<double>(std::max<std::size_t>(points, 1));
-}
-
-constexpr double kClearlyMore = 1.05;  // of inliers: noise makes less of a difference
-
-constexpr double kLostIntervals = 3;  // without a registered scan
-
-constexpr int kPolish = 3;  // more registrations of what has not converged
-
-constexpr double kElsewhere_m = 1, kElsewhere_rad = 0.1;  // more than registration errs by
-
-bool elsewhere(const SE3& a, const SE3& b) {
-  const SE3 apart = a.inverse() * b;
-  return apart.translation().norm() > kElsewhere_m ||
-         core::so3_log(apart.linear()).norm() > kElsewhere_rad;
-}
-
-/// Twice the negative log density of the pose under its prediction.
-double surprise(const SE3& T_odom_lidar, const PosePrior& prior) {
-  const Vector6d off = core::se3_log(prior.T_odom_lidar.inverse() * T_odom_lidar);
-  const Eigen::LDLT<Matrix6d> factors(prior.covariance);
-  return off.dot(factors.solve(off)) + factors.vectorD().array().abs().log().sum();
 }
 
 }  // namespace
@@ -112,7 +85,7 @@ Odometry::Odometry(const OdometryConfig& config)
 
 OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
                                          std::span<const lidar::ImuSample> imu) {
-  if (started_ && (scan.stamp <= stamp_ || moment_of(scan) <= motion_.moment()))
+  if (started_ && (scan.stamp <= stamp_ || Sweep::moment_of(scan) <= motion_.moment()))
     return refused(scan);
   imu_.add(imu, motion_.moment() - kImuMemory);
   thin(scan);
@@ -130,56 +103,14 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   return estimate;
 }
 
-std::optional<std::pair<Prediction, Odometry::Fit>> Odometry::from_found(const lidar::Scan& scan) {
-  if (!found_) return std::nullopt;
-  std::swap(motion_, *found_);
-  Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
-  Fit found = fit(scan, prediction, Trust::found);
-  const bool fits = found.reason == OdometryReason::none;
-  if (!fits) std::swap(motion_, *found_);
-  found_.reset();
-  if (!fits) return std::nullopt;
-  return std::pair{std::move(prediction), std::move(found)};
-}
-
-/// The prediction, unless another one explains the scan where it does not.
-std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& scan) {
-  const Time moment = moment_of(scan);
-  Prediction prediction = motion_.predict(moment, imu_.samples());
-  Fit found = fit(scan, prediction);
-  std::optional<Prediction> other = motion_.predict_stepped(moment, imu_.samples());
-  // A single scan may be of another place; several say that the inertial unit is wrong.
-  if (!other && prediction.inertial && found.reason == OdometryReason::no_fit && misfits_ > 0)
-    other = motion_.predict_without_imu(moment);
-  if (!other) return {prediction, std::move(found)};
-  Fit found_otherwise = fit(scan, *other, Trust::none);
-  if (prediction.inertial) found_otherwise.found.reset();  // it knows where the scan was taken
-  const bool proof_follows = found.found && found_otherwise.reason != OdometryReason::none;
-  if (proof_follows || !more_likely(found_otherwise, *other, found, prediction))
-    return {prediction, std::move(found)};
-  return {*other, std::move(found_otherwise)};
-}
-
-/// Which of two predictions explains the scan: points first, then the motion.
-bool Odometry::more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
-                           const Prediction& of_b) {
-  if (b.reason == OdometryReason::ambiguous && a.share <= kClearlyMore * b.share) return false;
-  const bool a_fits = a.reason == OdometryReason::none, b_fits = b.reason == OdometryReason::none;
-  if (a_fits != b_fits) return a_fits;
-  if (a.share > kClearlyMore * b.share) return true;
-  if (b.share > kClearlyMore * a.share) return false;
-  return surprise(a.registration.T_odom_lidar, of_a.prior) <
-         surprise(b.registration.T_odom_lidar, of_b.prior);
-}
-
 OdometryEstimate Odometry::start(const lidar::Scan& scan) {
   stamp_ = pruned_stamp_ = scan.stamp;
   T_odom_stamp_.linear() = level(imu_.samples());
-  motion_.start(moment_of(scan), T_odom_stamp_);
+  motion_.start(Sweep::moment_of(scan), T_odom_stamp_);
   const Time span = Sweep::span_of(scan);
   // The lidar is taken to stand where it is; a gyroscope knows how it turned.
   const Sweep sweep = motion_.sweep_before(T_odom_stamp_, 1, span, imu_.samples());
-  motion_.start(moment_of(scan), T_odom_stamp_ * sweep.T_reference_stamp().inverse());
+  motion_.start(Sweep::moment_of(scan), T_odom_stamp_ * sweep.T_reference_stamp().inverse());
   started_ = true;
   keep_first(scan);
   add_to_map(scan, sweep);
@@ -227,57 +158,6 @@ OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t poi
   const bool usual = share_of(result, points) >= least_share * usual_share_;
   return usual && registration_.trustworthy(result, points) ? OdometryReason::none
                                                             : OdometryReason::no_fit;
-}
-
-bool Odometry::lost(const Prediction& prediction) const {
-  return prediction.seconds > kLostIntervals * motion_.usual_interval_s() &&
-         !search_.covers(prediction.prior);
-}
-
-std::vector<SE3> Odometry::far_starts(const lidar::Scan& scan, const Prediction& prediction,
-                                      const Sweep& sweep) {
-  if (!lost(prediction)) return {};
-  deskew(scan, sweep, registration_sample_);
-  return column_search_.starts(scratch_, prediction.prior, map_);
-}
-
-Odometry::Start Odometry::start_of(const lidar::Scan& scan, const Prediction& prediction,
-                                   double gate_m) {
-  const PosePrior& prior = prediction.prior;
-  Start start{prior.T_odom_lidar};
-  if (!search_.worthwhile(prior) || !registration_.enough(registration_sample_.size()))
-    return start;
-  const Sweep sweep =
-      motion_.sweep(prediction, prior.T_odom_lidar, Sweep::span_of(scan), imu_.samples());
-  const std::vector<SE3> far = far_starts(scan, prediction, sweep);
-  deskew(scan, sweep, coarse_sample_);
-  const std::vector<SE3> starts = far.empty() ? search_.starts(scratch_, prior, map_) : far;
-  std::vector<RegistrationResult> tried = {
-      registration_.align(scratch_, prior, prior.T_odom_lidar, map_, gate_m)};
-  std::size_t best = 0;
-  for (const SE3& from : starts) {
-    tried.push_back(registration_.align(scratch_, prior, from, map_, gate_m));
-    if (tried.back().inliers >= kClearlyMore * tried[best].inliers) best = tried.size() - 1;
-  }
-  if (best > 0) start = {tried[best].T_odom_lidar, true};
-  if (far.empty()) return start;
-  const auto polished = [&](RegistrationResult result) {
-    for (int round = 0; round < kPolish && !result.converged; ++round)
-      result = registration_.align(scratch_, prior, result.T_odom_lidar, map_, gate_m);
-    return result;
-  };
-  tried[best] = polished(tried[best]);
-  if (best > 0) start.T_odom_lidar = tried[best].T_odom_lidar;
-  const auto rivals = [&](const RegistrationResult& other) {
-    return kClearlyMore * other.inliers > tried[best].inliers &&
-           elsewhere(other.T_odom_lidar, tried[best].T_odom_lidar);
-  };
-  start.ambiguous = std::any_of(tried.begin(), tried.end(), [&](const RegistrationResult& other) {
-    return rivals(other) && rivals(polished(other));
-  });
-  if (start.searched && !start.ambiguous && registration_.trustworthy(tried[best], scratch_.size()))
-    start.found = tried[best];
-  return start;
 }
 
 Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction, Trust trust) {
@@ -385,7 +265,7 @@ void Odometry::keep_first(const lidar::Scan& scan) {
 
 void Odometry::refine_first(const lidar::Scan& scan) {
   for (int round = 0; round < config_.first_rounds; ++round) {
-    const Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
+    const Prediction prediction = motion_.predict(Sweep::moment_of(scan), imu_.samples());
     const Fit found = fit(scan, prediction);
     if (found.reason != OdometryReason::none) break;
     redo_first(prediction, found.registration.T_odom_lidar);
