@@ -10,7 +10,8 @@ constexpr double kNeverSaidAfter_s = 1e6;  // a stamp of 0 is older than that
 constexpr double kContactHolds_s = 1;      // longer than safety is ever late
 constexpr double kDescent_mps = 0.5;       // slower than autopilots land
 constexpr double kGuidance_s = 0.5;  // 25 runs; setpoints expire before, and the vehicle holds
-constexpr double kPose_s = 0.45;     // flight controllers give up after 0.5 s
+/// Flight controllers give up after 0.5 s; sooner, a silent lidar would be taken for this.
+constexpr double kPose_s = 0.45;
 
 /// "no scan for 0.7 s" or "no scan yet".
 core::Text silence_text(const char* what, Time last, Time now, double limit_s) {
