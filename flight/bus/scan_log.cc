@@ -5,8 +5,8 @@
 #include <array>
 #include <fstream>
 
-#include "saker/autonomy/open_beams.h"
 #include "saker/core/error.h"
+#include "saker/occupancy/open_beam.h"
 
 namespace saker::flight {
 namespace {
@@ -66,7 +66,7 @@ std::optional<lidar::Frame> ScanLog::next() {
     frame.name = fmt::format("{:06}", scans_++);
     frame.scan.stamp = scan->stamp;
     for (std::size_t i = 0; i < scan->points->size(); ++i) {
-      if (autonomy::OpenBeams::is_open((*scan->points)[i])) continue;
+      if (occupancy::is_open_beam((*scan->points)[i])) continue;
       frame.scan.points.push_back((*scan->points)[i]);
       frame.scan.reflectivity.push_back((*scan->reflectivity)[i]);
     }

@@ -54,7 +54,7 @@ LoopStatus Executive::ingest() {
 
 void Executive::take_scan(autonomy::IngestedScan scan) {
   const autonomy::RegisteredScan& registered = scan.registered;
-  const bool ok = scan.status == odometry::OdometryStatus::ok;
+  const bool ok = odometry::registered(scan.status);
   if (scan.status == odometry::OdometryStatus::refused) return;
   if (rows_.size() < kMostRows) rows_.push_back({registered.stamp, registered.T_odom_lidar});
   const PoseFix fix{registered.stamp, registered.T_odom_lidar, scan.covariance, ok};

@@ -114,7 +114,7 @@ Json log_message(const std::string& name, LogLevel level, const std::string& tex
 }
 
 std::optional<Json> point_cloud(const RobotState& state, double t, std::size_t most) {
-  constexpr float kFarthest_m = 120;  // beams without an answer are said to end at 200 m
+  constexpr float kFarthest_m = 120;  // beams without an answer are said to end at 200 m or more
   if (!state.scan || !state.scan->message.points) return std::nullopt;
   const autonomy::RegisteredScan& scan = state.scan->message;
   const auto& points = *scan.points;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "saker/autonomy/open_beams.h"
+#include "saker/occupancy/open_beam.h"
 
 namespace saker::flight::viewers {
 namespace {
@@ -121,11 +121,11 @@ uint32 count
 std::string ros_cloud(const autonomy::RegisteredScan& scan, const std::string& frame_id) {
   const bool reflects = scan.reflectivity && scan.reflectivity->size() == scan.points->size();
   std::uint32_t hits = 0;
-  for (const Eigen::Vector3f& p : *scan.points) hits += autonomy::OpenBeams::is_open(p) ? 0 : 1;
+  for (const Eigen::Vector3f& p : *scan.points) hits += occupancy::is_open_beam(p) ? 0 : 1;
   CdrWriter out = begin_cloud(scan.stamp, frame_id, hits, kPlace);
   for (std::size_t i = 0; i < scan.points->size(); ++i) {
     const Eigen::Vector3f& p = (*scan.points)[i];
-    if (autonomy::OpenBeams::is_open(p)) continue;
+    if (occupancy::is_open_beam(p)) continue;
     for (int axis = 0; axis < 3; ++axis) out.append(p[axis]);
     out.append(reflects ? (*scan.reflectivity)[i] : 0.0f);
   }

@@ -65,6 +65,7 @@ void Lockstep::ingest(lidar::Frame frame, LockstepObserver& observer, LockstepRe
   if (estimate.status == odometry::OdometryStatus::refused) return;
 
   motion_log_.add(estimate.stamp, estimate.T_odom_lidar, estimate.covariance);
+  if (!registered(estimate.status)) return;  // where a prediction was seen from is not known
   if (!segmentation_schedule_.due(scan->stamp)) return;
   start_segmentation(scan, estimate);
   ++result.labelled_scans;

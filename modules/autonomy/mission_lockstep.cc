@@ -124,7 +124,7 @@ void MissionLockstep::take_scan(const IngestedScan& scan, Time now) {
   observer_->on_scan(scan);
   if (scan.status == odometry::OdometryStatus::refused) return;
   motion_log_.add(registered.stamp, registered.T_odom_lidar, scan.covariance);
-  if (scan.status != odometry::OdometryStatus::ok) {
+  if (!odometry::registered(scan.status)) {
     ++result_.counters.scans_not_registered;
     return;
   }

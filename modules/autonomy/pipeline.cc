@@ -8,6 +8,7 @@
 #include "saker/autonomy/incomplete_targets.h"
 #include "saker/autonomy/label_counts.h"
 #include "saker/core/error.h"
+#include "saker/occupancy/open_beam.h"
 
 namespace saker::autonomy {
 namespace {
@@ -34,9 +35,9 @@ Ingestion::Ingestion(const odometry::OdometryConfig& config, const StandstillCon
       open_beams_(info),
       odometry_(config),
       T_body_lidar_(T_body_lidar) {
-  if (config.max_range_m < OpenBeams::kOpen_m) return;
+  if (config.max_range_m < occupancy::kOpenBeam_m) return;
   throw Error(fmt::format("odometry.max_range_m: {:g}, expected less than {:g} in flight",
-                          config.max_range_m, OpenBeams::kOpen_m));
+                          config.max_range_m, occupancy::kOpenBeam_m));
 }
 
 std::optional<lidar::Frame> Ingestion::take_newest() {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "saker/core/error.h"
+#include "saker/occupancy/open_beam.h"
 
 namespace saker::occupancy {
 namespace {
@@ -49,7 +50,7 @@ InsertReport OccupancyMap::insert(std::span<const Eigen::Vector3f> points, const
     return report;
   }
   take(points, T_odom_lidar, report);
-  box_.collect(tree_, origin, ends_);
+  box_.collect(tree_, origin, beams_);
   tree_.update(box_);
   stamp_ = stamp;
   report.dropped = drop_far(T_odom_lidar.translation());
@@ -61,15 +62,15 @@ void OccupancyMap::take(std::span<const Eigen::Vector3f> points, const SE3& T_od
                         InsertReport& report) {
   const auto own2 = static_cast<float>(config_.body_radius_m * config_.body_radius_m);
   const Eigen::Isometry3f T = T_odom_lidar.cast<float>();
-  ends_.clear();
+  beams_.clear();
   for (const Eigen::Vector3f& point : points) {
     if (!point.allFinite()) continue;
     if (point.squaredNorm() < own2)
       ++report.own_points;
     else
-      ends_.push_back(to_octomap(T * point));
+      beams_.push_back({to_octomap(T * point), clears_from_m(point)});
   }
-  report.points = static_cast<int>(ends_.size());
+  report.points = static_cast<int>(beams_.size());
 }
 
 std::size_t OccupancyMap::drop_far(const Eigen::Vector3d& centre) {

@@ -76,7 +76,8 @@ class OccupancyMap {
  public:
   explicit OccupancyMap(const OccupancyConfig& config);  ///< throws Error on an invalid value
 
-  /// Time order is required. What is not finite is skipped.
+  /// Time order is required. What is not finite is skipped. A beam without a return only clears,
+  /// from some range on (open_beam.h).
   /// \param points m, lidar frame at `stamp`
   InsertReport insert(std::span<const Eigen::Vector3f> points, const SE3& T_odom_lidar, Time stamp);
 
@@ -94,7 +95,7 @@ class OccupancyMap {
   OccupancyConfig config_;
   MapTree tree_;
   ScanBox box_;
-  std::vector<octomap::point3d> ends_;
+  std::vector<ScanBox::Beam> beams_;
   Time stamp_ = 0;
   Time dropped_stamp_ = 0;
 };

@@ -76,16 +76,17 @@ bool ScanBox::fits(const octomap::OcTree& tree, const octomap::point3d& origin) 
 }
 
 void ScanBox::collect(const octomap::OcTree& tree, const octomap::point3d& origin,
-                      std::span<const octomap::point3d> ends) {
+                      std::span<const Beam> beams) {
   begin(tree, origin);
   Rays rays;
-  for (const octomap::point3d& end : ends) {
+  for (const auto& [end, from_m] : beams) {
     if ((end - origin).norm() <= range_m_) {
       hits_.push_back(index_of(tree.coordToKey(end)));
-      aim(tree, end, rays);
-    } else {
+      aim(tree, origin_, end, rays);
+    } else if (from_m < range_m_) {
       const octomap::point3d direction = (end - origin).normalized();
-      aim(tree, origin + direction * static_cast<float>(range_m_), rays);
+      const octomap::point3d last = origin + direction * static_cast<float>(range_m_);
+      aim(tree, from_m > 0 ? start_at(tree, origin + direction * from_m) : origin_, last, rays);
     }
     if (rays.count == kLanes) march(rays);
   }
@@ -96,16 +97,21 @@ void ScanBox::collect(const octomap::OcTree& tree, const octomap::point3d& origi
 }
 
 void ScanBox::begin(const octomap::OcTree& tree, const octomap::point3d& origin) {
-  origin_ = origin;
-  origin_key_ = tree.coordToKey(origin);
-  for (unsigned i = 0; i < 3; ++i) {
-    corner_[i] = static_cast<octomap::key_type>((origin_key_[i] - half_) / kBrick * kBrick);
-    const double centre = tree.keyToCoord(origin_key_[i]);
-    wall_[i][0] = centre + static_cast<float>(-resolution_m_ * 0.5);
-    wall_[i][1] = centre + static_cast<float>(resolution_m_ * 0.5);
-  }
+  origin_ = start_at(tree, origin);
+  for (unsigned i = 0; i < 3; ++i)
+    corner_[i] = static_cast<octomap::key_type>((origin_.key[i] - half_) / kBrick * kBrick);
   hits_.clear();
   std::fill(cells_.begin(), cells_.end(), kUnseen);
+}
+
+ScanBox::Start ScanBox::start_at(const octomap::OcTree& tree, const octomap::point3d& point) const {
+  Start start{point, tree.coordToKey(point)};
+  for (unsigned i = 0; i < 3; ++i) {
+    const double centre = tree.keyToCoord(start.key[i]);
+    start.wall[i][0] = centre + static_cast<float>(-resolution_m_ * 0.5);
+    start.wall[i][1] = centre + static_cast<float>(resolution_m_ * 0.5);
+  }
+  return start;
 }
 
 int ScanBox::index_of(const octomap::OcTreeKey& key) const {
@@ -113,16 +119,17 @@ int ScanBox::index_of(const octomap::OcTreeKey& key) const {
 }
 
 /// As OctoMap's computeRayKeys begins, floats and doubles where it has them.
-void ScanBox::aim(const octomap::OcTree& tree, const octomap::point3d& end, Rays& rays) {
+void ScanBox::aim(const octomap::OcTree& tree, const Start& start, const octomap::point3d& end,
+                  Rays& rays) {
   const octomap::OcTreeKey end_key = tree.coordToKey(end);
-  if (end_key == origin_key_) return;
-  octomap::point3d direction = end - origin_;
+  if (end_key == start.key) return;
+  octomap::point3d direction = end - start.point;
   const auto length = static_cast<float>(direction.norm());
   direction /= length;
 
   const int lane = rays.count++;
   rays.running[lane] = -1;
-  rays.cell[lane] = index_of(origin_key_);
+  rays.cell[lane] = index_of(start.key);
   rays.end[lane] = index_of(end_key);
   rays.length[lane] = length;
   const int strides[3] = {1, edge_, edge_ * edge_};
@@ -131,7 +138,8 @@ void ScanBox::aim(const octomap::OcTree& tree, const octomap::point3d& end, Rays
     rays.step[i][lane] = sign * strides[i];
     constexpr double kNever = std::numeric_limits<double>::max();
     rays.wall[i][lane] =
-        sign == 0 ? kNever : (wall_[i][sign > 0] - static_cast<double>(origin_(i))) / direction(i);
+        sign == 0 ? kNever
+                  : (start.wall[i][sign > 0] - static_cast<double>(start.point(i))) / direction(i);
     rays.between[i][lane] =
         sign == 0 ? kNever : resolution_m_ / std::fabs(static_cast<double>(direction(i)));
   }

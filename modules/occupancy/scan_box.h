@@ -35,12 +35,17 @@ class ScanBox {
   /// Whether the box around this origin lies within the keys of the tree.
   [[nodiscard]] bool fits(const octomap::OcTree& tree, const octomap::point3d& origin) const;
 
+  /// Where a beam leads.
+  struct Beam {
+    octomap::point3d end;  ///< finite, in the tree's frame
+    float from_m = 0;      ///< range from which on it clears
+  };
+
   /// Forgets the last scan and takes this one. An end beyond the range only clears, up to it.
   /// \param tree gives the lattice alone
   /// \param origin one that fits
-  /// \param ends finite, in the tree's frame
   void collect(const octomap::OcTree& tree, const octomap::point3d& origin,
-               std::span<const octomap::point3d> ends);
+               std::span<const Beam> beams);
 
   /// Bits of what was seen in a cube of the tree.
   [[nodiscard]] std::uint8_t seen(const KeyCube& cube) const;
@@ -48,8 +53,17 @@ class ScanBox {
  private:
   struct Rays;
 
+  /// Where rays begin.
+  struct Start {
+    octomap::point3d point;
+    octomap::OcTreeKey key;
+    double wall[3][2] = {};  ///< m: its cell's lower and upper wall along each axis
+  };
+
   void begin(const octomap::OcTree& tree, const octomap::point3d& origin);
-  void aim(const octomap::OcTree& tree, const octomap::point3d& end, Rays& rays);
+  [[nodiscard]] Start start_at(const octomap::OcTree& tree, const octomap::point3d& point) const;
+  void aim(const octomap::OcTree& tree, const Start& start, const octomap::point3d& end,
+           Rays& rays);
   void march(Rays& rays);
   void summarise();
   [[nodiscard]] int index_of(const octomap::OcTreeKey& key) const;
@@ -59,9 +73,7 @@ class ScanBox {
   int half_;  // cells from the origin's to the box's border, at least
   int edge_;  // cells, a multiple of a brick's
   octomap::OcTreeKey corner_;
-  octomap::point3d origin_;
-  octomap::OcTreeKey origin_key_;
-  double wall_[3][2] = {};  // m: the origin's cell, its lower and upper wall along each axis
+  Start origin_;
   std::vector<std::uint8_t> cells_;   // x fastest
   std::vector<std::uint8_t> bricks_;  // bits of all their cells
   std::vector<int> hits_;

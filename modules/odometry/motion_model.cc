@@ -160,6 +160,16 @@ Sweep MotionModel::sweep_before(const SE3& T_odom_lidar, double seconds, Time sp
   return Sweep::twisting({twist_to(T_odom_lidar, seconds)}, span);
 }
 
+Matrix6d MotionModel::half_sweep_covariance(const Prediction& prediction, Time span) const {
+  const double unseen_s = std::max(0.0, prediction.seconds - kLonger * usual_interval_s_);
+  if (prediction.inertial || unseen_s == 0) return Matrix6d::Zero();
+  const double half_s = to_seconds(span) / 2;
+  const double rate =
+      std::min(config_.initial_rate_rps, config_.angular_acceleration_rps2 * unseen_s);
+  const double speed = std::min(config_.initial_speed_mps, config_.acceleration_mps2 * unseen_s);
+  return diagonal(rate * half_s, speed * half_s);
+}
+
 void MotionModel::accept(const Prediction& prediction, const SE3& T_odom_lidar,
                          const Matrix6d& covariance) {
   const double seconds = prediction.seconds;

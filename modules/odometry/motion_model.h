@@ -77,6 +77,10 @@ class MotionModel {
   [[nodiscard]] Sweep sweep_before(const SE3& T_odom_lidar, double seconds, Time span,
                                    std::span<const lidar::ImuSample> imu) const;
 
+  /// What the way from the middle of a scan of length `span` to its end adds to a registered pose
+  /// where the turn was not measured for longer than usual; tangent at the end.
+  [[nodiscard]] Matrix6d half_sweep_covariance(const Prediction& prediction, Time span) const;
+
   void accept(const Prediction& prediction, const SE3& T_odom_lidar, const Matrix6d& covariance);
   void coast(const Prediction& prediction);
 

@@ -1,6 +1,7 @@
 #include "saker/odometry/odometry.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,12 +13,6 @@ constexpr std::size_t kMostSampledPoints =
     262144;  // two returns of a sensor of 128 rows and 1024 columns
 
 constexpr Time kImuMemory = 3 * kNanosecondsPerSecond;  // before the last scan
-
-/// The moment whose pose is registered: the middle of the scan (see Sweep).
-Time moment_of(const lidar::Scan& scan) {
-  const Time span = Sweep::span_of(scan);
-  return scan.stamp - (span - span / 2);
-}
 
 std::int32_t offset_of(const lidar::Scan& scan, std::size_t i) {
   return i < scan.offset_ns.size() ? scan.offset_ns[i] : 0;
@@ -34,18 +29,14 @@ Matrix6d drift(const Matrix6d& posterior, const Prediction& prediction, double s
   return 0.5 * (sum + sum.transpose());
 }
 
+Eigen::Matrix3d place_in_odom(const SE3& T_odom_lidar, const Matrix6d& covariance) {
+  const Eigen::Matrix3d R = T_odom_lidar.linear();
+  return R * covariance.bottomRightCorner<3, 3>() * R.transpose();
+}
+
 double share_of(const RegistrationResult& result, std::size_t points) {
   return static_cast<double>(result.inliers) /
          static_cast<double>(std::max<std::size_t>(points, 1));
-}
-
-constexpr double kClearlyMore = 1.05;  // of inliers: noise makes less of a difference
-
-/// Twice the negative log density of the pose under its prediction.
-double surprise(const SE3& T_odom_lidar, const PosePrior& prior) {
-  const Vector6d off = core::se3_log(prior.T_odom_lidar.inverse() * T_odom_lidar);
-  const Eigen::LDLT<Matrix6d> factors(prior.covariance);
-  return off.dot(factors.solve(off)) + factors.vectorD().array().abs().log().sum();
 }
 
 }  // namespace
@@ -54,6 +45,8 @@ const char* to_string(OdometryStatus status) {
   switch (status) {
     case OdometryStatus::ok:
       return "ok";
+    case OdometryStatus::open:
+      return "open";
     case OdometryStatus::predicted:
       return "predicted";
     case OdometryStatus::refused:
@@ -72,6 +65,10 @@ const char* to_string(OdometryReason reason) {
       return "too few points";
     case OdometryReason::no_fit:
       return "does not fit the local map";
+    case OdometryReason::ambiguous:
+      return "fits several places of the local map";
+    case OdometryReason::not_held:
+      return "nothing in sight holds the pose in a direction";
   }
   return "?";
 }
@@ -81,64 +78,39 @@ Odometry::Odometry(const OdometryConfig& config)
       map_(config_.map),
       registration_(config_.registration),
       search_(config_.search),
+      column_search_(config_.column_search),
       gate_(config_.gate),
       motion_(config_.motion),
       filter_(kMostSampledPoints) {}
 
 OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
                                          std::span<const lidar::ImuSample> imu) {
-  if (started_ && (scan.stamp <= stamp_ || moment_of(scan) <= motion_.moment()))
+  if (started_ && (scan.stamp <= stamp_ || Sweep::moment_of(scan) <= motion_.moment()))
     return refused(scan);
   imu_.add(imu, motion_.moment() - kImuMemory);
   thin(scan);
   if (!started_) return start(scan);
   if (!first_.points.empty()) refine_first(scan);
 
-  auto [prediction, found] = most_likely(scan);
+  auto from_there = from_found(scan);
+  auto [prediction, found] = from_there ? std::move(*from_there) : most_likely(scan);
   OdometryEstimate estimate = report(scan, prediction, found);
   remember(prediction, found);
   stamp_ = estimate.stamp;
   T_odom_stamp_ = estimate.T_odom_lidar;
-  if (estimate.status == OdometryStatus::ok || misfits_ >= config_.restart_after)
+  if (registered(estimate.status) || misfits_ >= config_.restart_after)
     add_to_map(scan, found.sweep);
   return estimate;
-}
-
-/// The prediction, unless another one explains the scan where it does not.
-std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& scan) {
-  const Time moment = moment_of(scan);
-  Prediction prediction = motion_.predict(moment, imu_.samples());
-  Fit found = fit(scan, prediction);
-  std::optional<Prediction> other = motion_.predict_stepped(moment, imu_.samples());
-  // A single scan may be of another place; several say that the inertial unit is wrong.
-  if (!other && prediction.inertial && found.reason == OdometryReason::no_fit && misfits_ > 0)
-    other = motion_.predict_without_imu(moment);
-  if (!other) return {prediction, std::move(found)};
-  Fit found_otherwise = fit(scan, *other);
-  if (!more_likely(found_otherwise, *other, found, prediction))
-    return {prediction, std::move(found)};
-  return {*other, std::move(found_otherwise)};
-}
-
-/// Which of two predictions explains the scan: points first, then the motion.
-bool Odometry::more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
-                           const Prediction& of_b) {
-  const bool a_fits = a.reason == OdometryReason::none, b_fits = b.reason == OdometryReason::none;
-  if (a_fits != b_fits) return a_fits;
-  if (a.share > kClearlyMore * b.share) return true;
-  if (b.share > kClearlyMore * a.share) return false;
-  return surprise(a.registration.T_odom_lidar, of_a.prior) <
-         surprise(b.registration.T_odom_lidar, of_b.prior);
 }
 
 OdometryEstimate Odometry::start(const lidar::Scan& scan) {
   stamp_ = pruned_stamp_ = scan.stamp;
   T_odom_stamp_.linear() = level(imu_.samples());
-  motion_.start(moment_of(scan), T_odom_stamp_);
+  motion_.start(Sweep::moment_of(scan), T_odom_stamp_);
   const Time span = Sweep::span_of(scan);
   // The lidar is taken to stand where it is; a gyroscope knows how it turned.
   const Sweep sweep = motion_.sweep_before(T_odom_stamp_, 1, span, imu_.samples());
-  motion_.start(moment_of(scan), T_odom_stamp_ * sweep.T_reference_stamp().inverse());
+  motion_.start(Sweep::moment_of(scan), T_odom_stamp_ * sweep.T_reference_stamp().inverse());
   started_ = true;
   keep_first(scan);
   add_to_map(scan, sweep);
@@ -181,41 +153,21 @@ void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
 }
 
 OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t points,
-                               bool searched) const {
+                               double least_share) const {
   if (!registration_.enough(points)) return OdometryReason::too_few_points;
-  const bool expected = !searched && result.deviation_sd <= config_.expected_sd;
-  const double least = expected ? config_.least_usual_share : config_.least_unexpected_share;
-  const bool usual = share_of(result, points) >= least * usual_share_;
+  const bool usual = share_of(result, points) >= least_share * usual_share_;
   return usual && registration_.trustworthy(result, points) ? OdometryReason::none
                                                             : OdometryReason::no_fit;
 }
 
-SE3 Odometry::start_of(const lidar::Scan& scan, const Prediction& prediction, double gate_m) {
-  const SE3& predicted = prediction.prior.T_odom_lidar;
-  if (!search_.worthwhile(prediction.prior)) return predicted;
-  deskew(scan, motion_.sweep(prediction, predicted, Sweep::span_of(scan), imu_.samples()),
-         coarse_sample_);
-  RegistrationResult best =
-      registration_.align(scratch_, prediction.prior, predicted, map_, gate_m);
-  SE3 start = predicted;
-  for (const SE3& from : search_.starts(scratch_, prediction.prior, map_)) {
-    const RegistrationResult other =
-        registration_.align(scratch_, prediction.prior, from, map_, gate_m);
-    if (other.inliers < kClearlyMore * best.inliers) continue;
-    best = other;
-    start = other.T_odom_lidar;
-  }
-  return start;
-}
-
-Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction) {
+Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction, Trust trust) {
   const Time span = Sweep::span_of(scan);
   const SE3& predicted = prediction.prior.T_odom_lidar;
   Fit fit;
   fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
-  const SE3 start = start_of(scan, prediction, fit.gate_m);
-  const bool searched = !start.isApprox(predicted);
-  fit.registration.T_odom_lidar = start;
+  const Start start = start_of(scan, prediction, fit.gate_m);
+  const bool pointed_to = trust == Trust::prediction && !start.searched && !lost(prediction);
+  fit.registration.T_odom_lidar = start.T_odom_lidar;
   const int rounds = span == 0 ? 1 : config_.deskew_rounds;
   for (int round = 0; round < rounds && fit.reason == OdometryReason::none; ++round) {
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
@@ -223,10 +175,16 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
     deskew(scan, fit.sweep, round + 1 < rounds ? coarse_sample_ : registration_sample_);
     fit.registration =
         registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
-    fit.reason = judge(fit.registration, scratch_.size(), searched);
+    const bool expected = pointed_to && fit.registration.deviation_sd <= config_.expected_sd;
+    const double least = trust == Trust::found ? config_.least_found_share
+                         : expected            ? config_.least_usual_share
+                                               : config_.least_unexpected_share;
+    fit.reason = judge(fit.registration, scratch_.size(), least);
   }
   fit.share = share_of(fit.registration, scratch_.size());
+  if (fit.reason == OdometryReason::none && start.ambiguous) fit.reason = OdometryReason::ambiguous;
   const bool fits = fit.reason == OdometryReason::none;
+  if (!fits) fit.found = start.found;
   if (!fits) fit.registration.T_odom_lidar = predicted;
   if (!fits) fit.registration.covariance = prediction.prior.covariance;
   fit.sweep = motion_.sweep(prediction, fit.registration.T_odom_lidar, span, imu_.samples());
@@ -234,15 +192,21 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
 }
 
 OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& prediction,
-                                  const Fit& fit) const {
+                                  const Fit& fit) {
   const bool fits = fit.reason == OdometryReason::none;
   OdometryEstimate estimate;
   estimate.stamp = scan.stamp;
   estimate.T_odom_lidar = fit.registration.T_odom_lidar * fit.sweep.T_reference_stamp();
-  estimate.covariance = fits ? drift(fit.registration.covariance, prediction, config_.drift_share)
-                             : prediction.motion_covariance;
+  estimate.covariance =
+      fits ? drift(fit.registration.held_covariance, prediction, config_.drift_share)
+           : prediction.motion_covariance;
   estimate.status = fits ? OdometryStatus::ok : OdometryStatus::predicted;
   estimate.reason = fit.reason;
+  if (fits && !held(estimate)) {
+    estimate.status = OdometryStatus::open;
+    estimate.reason = OdometryReason::not_held;
+  }
+  if (fits) estimate.covariance += motion_.half_sweep_covariance(prediction, Sweep::span_of(scan));
   estimate.points = fit.sweep.referred_to_stamp().deskewed(scan);
   estimate.diagnostics = {.points = static_cast<int>(registration_sample_.size()),
                           .iterations = fit.registration.iterations,
@@ -254,6 +218,17 @@ OdometryEstimate Odometry::report(const lidar::Scan& scan, const Prediction& pre
   return estimate;
 }
 
+bool Odometry::held(const OdometryEstimate& estimate) {
+  drifts_.push_back({estimate.stamp, place_in_odom(estimate.T_odom_lidar, estimate.covariance)});
+  std::erase_if(drifts_, [&](const Drift& drift) {
+    return drift.stamp <= estimate.stamp - kNanosecondsPerSecond;
+  });
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Drift& drift : drifts_) sum += drift.covariance;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[2] <= config_.most_drift_m * config_.most_drift_m;
+}
+
 void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   if (fit.reason == OdometryReason::none) {
     gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
@@ -263,10 +238,17 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
     misfits_ = 0;
     return;
   }
+  if (fit.found) {
+    found_ = motion_;
+    found_->accept(prediction, fit.found->T_odom_lidar, fit.found->covariance);
+  }
   motion_.coast(prediction);
-  misfits_ += fit.reason == OdometryReason::no_fit;
+  misfits_ += fit.reason == OdometryReason::no_fit || fit.reason == OdometryReason::ambiguous;
   if (misfits_ < config_.restart_after) return;
   map_.clear();  // lost: the scan begins a new map where it is thought to be
+  found_.reset();
+  drifts_.push_back(
+      {stamp_, place_in_odom(prediction.prior.T_odom_lidar, prediction.prior.covariance)});
   gate_.reset();
   usual_share_ = 0;
 }
@@ -283,7 +265,7 @@ void Odometry::keep_first(const lidar::Scan& scan) {
 
 void Odometry::refine_first(const lidar::Scan& scan) {
   for (int round = 0; round < config_.first_rounds; ++round) {
-    const Prediction prediction = motion_.predict(moment_of(scan), imu_.samples());
+    const Prediction prediction = motion_.predict(Sweep::moment_of(scan), imu_.samples());
     const Fit found = fit(scan, prediction);
     if (found.reason != OdometryReason::none) break;
     redo_first(prediction, found.registration.T_odom_lidar);

@@ -33,6 +33,11 @@ bool PoseSearch::worthwhile(const PosePrior& prior) const {
   return sd.head<3>().maxCoeff() > config_.step_m || sd[3] > config_.step_rad;
 }
 
+bool PoseSearch::covers(const PosePrior& prior) const {
+  const Eigen::Vector4d reach = config_.reach_sd * spread(prior);
+  return reach.head<2>().maxCoeff() <= config_.most_m && reach[3] <= config_.most_rad;
+}
+
 PoseSearch::Grid PoseSearch::grid_over(const PosePrior& prior) const {
   Eigen::Vector4d reach = config_.reach_sd * spread(prior);
   reach.head<3>() = reach.head<3>().cwiseMin(config_.most_m);

@@ -56,6 +56,9 @@ class PoseSearch {
   /// Whether the prior leaves more open than registration finds from one start.
   [[nodiscard]] bool worthwhile(const PosePrior& prior) const;
 
+  /// Whether all that the prior leaves open is searched.
+  [[nodiscard]] bool covers(const PosePrior& prior) const;
+
  private:
   /// Half widths in steps, and the steps: along x, y, z of `odom` and about z.
   struct Grid {

@@ -1,6 +1,7 @@
 #include "saker/odometry/registration.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,13 @@ double rms_range(std::span<const Eigen::Vector3d> points) {
   double sum = 0;
   for (const Eigen::Vector3d& point : points) sum += point.squaredNorm();
   return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+/// d r / d [rotation, translation], right, of a plane's normal in the lidar frame.
+Vector6d derivative(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
+  Vector6d J;
+  J << point.cross(normal), normal;
+  return J;
 }
 
 /// How far points at this range are moved, at most.
@@ -29,8 +37,8 @@ void Registration::associate(std::span<const Eigen::Vector3d> points, const SE3&
   }
 }
 
-Registration::NormalEquations Registration::linearise(const SE3& T, double gate_m,
-                                                      double kernel_m) {
+Registration::NormalEquations Registration::linearise(const SE3& T, double gate_m, double kernel_m,
+                                                      bool with_tilt) {
   NormalEquations sum;
   distances_.clear();
   const Eigen::Matrix3d R = T.linear();
@@ -45,12 +53,13 @@ Registration::NormalEquations Registration::linearise(const SE3& T, double gate_
     const double tilted =
         noise * config_.plane_correlation * (plane.tilt.transpose() * offset).squaredNorm();
     const double w = robust * robust / (noise + tilted);
-    const Eigen::Vector3d n = R.transpose() * plane.normal;
-    Vector6d J;  // d r / d [rotation, translation], right
-    J.head<3>() = point.cross(n);
-    J.tail<3>() = n;
+    const Vector6d J = derivative(point, R.transpose() * plane.normal);
     const Vector6d wJ = w * J;
     sum.H.noalias() += wJ * J.transpose();
+    for (int k = 0; with_tilt && k < 2; ++k) {
+      const Vector6d u = derivative(point, R.transpose() * plane.tilt.col(k));
+      sum.of_tilt.noalias() += (w * noise * u) * u.transpose();
+    }
     sum.g += r * wJ;
     sum.chi2 += w * r * r;
     sum.weights += robust * robust;
@@ -70,6 +79,27 @@ double Registration::next_kernel(double gate_m) {
                     std::min(config_.least_kernel_m, gate_m), gate_m);
 }
 
+/// Residuals larger than the model says widen the covariance; neighbouring points are not
+/// independent.
+double Registration::inflation_of(const NormalEquations& sum) const {
+  return config_.correlation * std::max(1.0, sum.chi2 / std::max(1.0, sum.weights));
+}
+
+/// With H = L Lᵀ and V diag(b) Vᵀ = L⁻¹ of_tilt L⁻ᵀ a direction of V keeps the share max(0, 1 − b)
+/// of its information.
+Matrix6d Registration::held_covariance(const NormalEquations& sum,
+                                       const Matrix6d& prior_information) const {
+  const Eigen::LLT<Matrix6d> factors(sum.H);
+  if (factors.info() != Eigen::Success) return prior_information.inverse();
+  const Matrix6d L = factors.matrixL();
+  const Matrix6d L_inverse = L.inverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> tilt(L_inverse * sum.of_tilt *
+                                                     L_inverse.transpose());
+  const Vector6d kept = (1 - tilt.eigenvalues().array()).max(0) / inflation_of(sum);
+  const Matrix6d LV = L * tilt.eigenvectors();
+  return (LV * kept.asDiagonal() * LV.transpose() + prior_information).inverse();
+}
+
 RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
                                        const PosePrior& prior, const SE3& start, VoxelMap& map,
                                        double gate_m) {
@@ -87,10 +117,7 @@ RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
       associate(points, T_associated, map, gate_m > 1);
     }
     const NormalEquations sum = linearise(result.T_odom_lidar, gate_m, kernel_m);
-    // Residuals larger than the model says widen the covariance; neighbouring points are not
-    // independent.
-    const double inflation =
-        config_.correlation * std::max(1.0, sum.chi2 / std::max(1.0, sum.weights));
+    const double inflation = inflation_of(sum);
     const Vector6d from_prior = core::se3_log(prior.T_odom_lidar.inverse() * result.T_odom_lidar);
     information = sum.H / inflation + prior_information;
     const Vector6d step =
@@ -105,6 +132,8 @@ RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
     kernel_m = next_kernel(gate_m);
   }
   result.covariance = information.inverse();
+  result.held_covariance =
+      held_covariance(linearise(result.T_odom_lidar, gate_m, kernel_m, true), prior_information);
   const Vector6d deviation = core::se3_log(prior.T_odom_lidar.inverse() * result.T_odom_lidar);
   result.deviation_sd = std::sqrt(std::max(0.0, deviation.dot(prior_information * deviation)) / 6);
   return result;

@@ -58,6 +58,12 @@ class Sweep {
   /// of it count as its ends.
   [[nodiscard]] static Time span_of(const lidar::Scan& scan);
 
+  /// The scan's middle, whose pose is registered.
+  [[nodiscard]] static Time moment_of(const lidar::Scan& scan) {
+    const Time span = span_of(scan);
+    return scan.stamp - (span - span / 2);
+  }
+
  private:
   using Affine = Eigen::Matrix<float, 3, 4>;
   static constexpr int kSteps = RotationTrack::kSteps;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,6 +60,15 @@ class VoxelMap {
   explicit VoxelMap(const VoxelMapConfig& config);
 
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+  [[nodiscard]] double voxel_m() const { return config_.voxel_m; }
+
+  /// Calls see(mean of the points seen in it) for each voxel.
+  template <class See>
+  void each_voxel(See see) const {
+    for (const Voxel& voxel : voxels_)
+      see(voxel.corner + voxel.sum.cast<double>() / std::max(voxel.count, 1));
+  }
+
   void clear();
 
   /// Adds finite points, given in `odom`.

@@ -4,6 +4,7 @@
 
 #include "made_scan.h"
 #include "saker/core/error.h"
+#include "saker/occupancy/open_beam.h"
 #include "stock.h"
 
 namespace saker::occupancy {
@@ -48,6 +49,18 @@ struct Pair {
   octomap::OcTree stock;
   Time stamp = 0;
 };
+
+TEST(OccupancyMap, ABeamWithoutAReturnIsNoHitAndClearsFromItsRangeOn) {
+  OccupancyMap map({});
+  const Vector3f open(kOpenBeam_m + 5, 0, 0), whole(0, kOpenBeam_m, 0);
+  ASSERT_EQ(map.insert(std::vector{open, whole}, SE3::Identity(), 1).status, InsertStatus::ok);
+  const auto at = [&](double x, double y) { return map.tree().search(x, y, 0.0); };
+  EXPECT_EQ(at(4.5, 0), nullptr);
+  ASSERT_NE(at(6, 0), nullptr);
+  EXPECT_LT(at(6, 0)->getOccupancy(), 0.5);
+  ASSERT_NE(at(0, 1), nullptr);
+  EXPECT_EQ(at(0, 16), nullptr);
+}
 
 TEST(OccupancyMap, MakesTheSameTreeAsOctoMapOverAFlight) {
   Pair maps;

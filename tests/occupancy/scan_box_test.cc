@@ -8,16 +8,17 @@ namespace saker::occupancy {
 namespace {
 
 using octomap::point3d;
+using Beams = std::vector<ScanBox::Beam>;
 
 constexpr double kResolution = 0.25;
 constexpr double kRange = 6;
 
-std::vector<point3d> random_ends(int count) {
+Beams random_beams(int count) {
   core::Rng rng(1);
-  std::vector<point3d> ends;
+  Beams beams;
   const auto at = [&rng] { return static_cast<float>(rng.uniform(-8, 8)); };
-  for (int i = 0; i < count; ++i) ends.emplace_back(at(), at(), at());
-  return ends;
+  for (int i = 0; i < count; ++i) beams.push_back({point3d(at(), at(), at())});
+  return beams;
 }
 
 KeyCube leaf(const octomap::OcTreeKey& key) { return {key[0], key[1], key[2], 1}; }
@@ -27,11 +28,11 @@ TEST(ScanBox, SeesTheSameCellsAsOctoMapsUpdate) {
   ScanBox box(kResolution, kRange);
   const point3d origin(0.3f, -0.2f, 0.7f);
   octomap::Pointcloud cloud;
-  const auto ends = random_ends(500);
-  for (const point3d& end : ends) cloud.push_back(end);
+  const Beams beams = random_beams(500);
+  for (const ScanBox::Beam& beam : beams) cloud.push_back(beam.end);
   octomap::KeySet free_cells, occupied_cells;
   tree.computeUpdate(cloud, origin, free_cells, occupied_cells, kRange);
-  box.collect(tree, origin, ends);
+  box.collect(tree, origin, beams);
   const octomap::OcTreeKey centre = tree.coordToKey(origin);
   constexpr int kAround = 40;
   for (int z = -kAround; z <= kAround; ++z)
@@ -50,7 +51,7 @@ TEST(ScanBox, SeesTheSameCellsAsOctoMapsUpdate) {
 TEST(ScanBox, ACubesBitsAreThoseOfItsEighths) {
   octomap::OcTree tree(kResolution);
   ScanBox box(kResolution, kRange);
-  box.collect(tree, point3d(0.3f, -0.2f, 0.7f), random_ends(30));
+  box.collect(tree, point3d(0.3f, -0.2f, 0.7f), random_beams(30));
   std::vector<KeyCube> cubes{{0, 0, 0, 1 << 16}};
   for (std::size_t i = 0; i < cubes.size() && cubes.size() < 100000; ++i) {
     std::uint8_t sum = kUnseen;
@@ -62,12 +63,30 @@ TEST(ScanBox, ACubesBitsAreThoseOfItsEighths) {
   EXPECT_EQ(box.seen(cubes[0]), kFree | kOccupied);
 }
 
+TEST(ScanBox, ABeamClearsFromTheCellOfItsRangeOn) {
+  octomap::OcTree tree(kResolution);
+  ScanBox box(kResolution, kRange);
+  const point3d origin(0.1f, 0.1f, 0.1f);
+  box.collect(tree, origin, Beams{{point3d(100, 0.1f, 0.1f), 3.1f}});
+  for (float x = 0.1f; x < 5.9f; x += 0.25f)
+    EXPECT_EQ(box.seen(leaf(tree.coordToKey(point3d(x, 0.1f, 0.1f)))), x > 3 ? kFree : kUnseen)
+        << x;
+}
+
+TEST(ScanBox, ABeamThatClearsFromBeyondTheBoxOnIsNotSeen) {
+  octomap::OcTree tree(kResolution);
+  ScanBox box(kResolution, kRange);
+  box.collect(tree, point3d(0.1f, 0.1f, 0.1f),
+              Beams{{point3d(100, 0, 0), 6}, {point3d(0, 100, 0), 90}});
+  EXPECT_EQ(box.seen({0, 0, 0, 1 << 16}), kUnseen);
+}
+
 TEST(ScanBox, ForgetsTheScanBefore) {
   octomap::OcTree tree(kResolution);
   ScanBox box(kResolution, kRange);
   const point3d origin(0.1f, 0.1f, 0.1f);
-  box.collect(tree, origin, std::vector<point3d>{{3, 0, 0}});
-  box.collect(tree, origin, std::vector<point3d>{{0, 3, 0}});
+  box.collect(tree, origin, Beams{{point3d(3, 0, 0)}});
+  box.collect(tree, origin, Beams{{point3d(0, 3, 0)}});
   EXPECT_EQ(box.seen(leaf(tree.coordToKey(point3d(3, 0, 0)))), kUnseen);
   EXPECT_EQ(box.seen(leaf(tree.coordToKey(point3d(0, 3, 0)))), kOccupied);
   box.collect(tree, origin, {});

@@ -147,6 +147,17 @@ TEST(MotionModel, EachScanThatIsMissedMakesItLessSure) {
   }
 }
 
+TEST(MotionModel, AfterAGapWithoutInertialUnitTheTurnInTheScanIsNotKnown) {
+  const MotionModel model = following(kStraight, 10);
+  const Time span = from_seconds(0.1);
+  const Prediction soon = model.predict(from_seconds(1.1), {});
+  EXPECT_TRUE(model.half_sweep_covariance(soon, span).isZero());
+  const Prediction late = model.predict(from_seconds(4), {});
+  const double sd_rad = std::sqrt(model.half_sweep_covariance(late, span)(0, 0));
+  EXPECT_NEAR(sd_rad, 0.05 * MotionConfig{}.initial_rate_rps, 1e-9);
+  EXPECT_TRUE(model.half_sweep_covariance(late, 0).isZero());
+}
+
 TEST(MotionModel, LearnsTheUsualInterval) {
   MotionModel model({});
   model.start(0, along_x(0));

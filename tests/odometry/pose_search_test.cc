@@ -58,6 +58,16 @@ TEST(PoseSearch, IsWorthwhileWhereThePriorLeavesMoreOpenThanAStep) {
   EXPECT_TRUE(search.worthwhile(prior_at({0, 0, 0}, 0, 0.05, enough_rad)));
 }
 
+TEST(PoseSearch, CoversAPriorThatLeavesNoMoreOpenThanItsLimits) {
+  const PoseSearchConfig config;
+  const PoseSearch search(config);
+  const double most_m = config.most_m / config.reach_sd,
+               most_rad = config.most_rad / config.reach_sd;
+  EXPECT_TRUE(search.covers(prior_at({0, 0, 0}, 0, 0.9 * most_m, 0.9 * most_rad)));
+  EXPECT_FALSE(search.covers(prior_at({0, 0, 0}, 0, 1.1 * most_m, 0.01)));
+  EXPECT_FALSE(search.covers(prior_at({0, 0, 0}, 0, 0.1, 1.1 * most_rad)));
+}
+
 TEST(PoseSearch, OneOfTheStartsIsNearTheTruthWhereThePriorIsMetresOff) {
   Seen seen = street_seen();
   const PoseSearch search({});

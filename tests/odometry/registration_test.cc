@@ -63,6 +63,32 @@ TEST(Registration, FindsThePoseFromWhichACornerWasSeen) {
   }
 }
 
+/// Two smooth walls and the ground, as a sensor with noise leaves them in the map.
+TEST(Registration, NoiseOfSmoothWallsHoldsNothingAlongThem) {
+  core::Rng rng(8);
+  const auto hall = [&] {
+    Points points;
+    for (int i = 0; i < 30000; ++i) {
+      const double x = rng.uniform(-20, 20), noise = rng.normal(0, 0.02);
+      if (i % 3 == 0) points.emplace_back(x, 4.3 + noise, rng.uniform(0, 5));
+      if (i % 3 == 1) points.emplace_back(x, -4.3 + noise, rng.uniform(0, 5));
+      if (i % 3 == 2) points.emplace_back(x, rng.uniform(-4, 4), 0.3 + noise);
+    }
+    return points;
+  };
+  const RegistrationResult result =
+      aligned(scan(hall(), SE3::Identity(), 7), prior(0.5), map_of(hall()));
+  EXPECT_GT(std::sqrt(result.held_covariance(3, 3)), 0.4);   // of the prior's 0.5
+  EXPECT_LT(std::sqrt(result.held_covariance(4, 4)), 0.02);  // across
+  EXPECT_LT(result.T_odom_lidar.translation().tail<2>().norm(), 0.01);
+}
+
+TEST(Registration, AWallAcrossHoldsAlongToo) {
+  const RegistrationResult result = aligned(scan(faces({0, 1, 2}, 0.02, 6), SE3::Identity()),
+                                            prior(0.5), map_of(faces({0, 1, 2}, 0.02, 7)));
+  for (int i = 3; i < 6; ++i) EXPECT_LT(std::sqrt(result.held_covariance(i, i)), 0.02);
+}
+
 TEST(Registration, RmsIsTheNoiseOfTheScan) {
   const RegistrationResult result = aligned(scan(faces({0, 1, 2}, 0.02, 3), SE3::Identity()),
                                             prior(1), map_of(faces({0, 1, 2}, 0, 2)));

@@ -14,6 +14,7 @@ constexpr Time kPeriod = 100'000'000;
 constexpr int kScans = 110;
 constexpr double kFarOff_m = 0.3;
 constexpr int kPerSecond = 10;
+constexpr std::size_t kBeginning = 20;  // scans, in which speed and map are not known yet
 
 /// House fronts, parked boxes and poles, none where it stood in another seed's.
 MadeWorld street_of(core::Rng& rng) {
@@ -227,15 +228,15 @@ Outcome fly(const Trial& trial, const OdometryConfig& config) {
   outcome.scans = static_cast<int>(steps.size());
   std::size_t before = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const bool clean = trial.trouble == Trouble::none || steps[i].scan < script.begin ||
-                       steps[i].scan >= script.end + 3 * kPerSecond;
+    const bool clean =
+        i >= kBeginning && (trial.trouble == Trouble::none || steps[i].scan < script.begin ||
+                            steps[i].scan >= script.end + 3 * kPerSecond);
     if (steps[i].scan < script.begin) before = i;
     outcome.clean += clean;
     outcome.clean_good += clean && steps[i].good;
     if (!steps[i].good && steps[i].scan >= script.end)
       outcome.recovered_s = 0.1 * (steps[i].scan - script.end + 1);
-    if (!clean || i < 20 || i % kPerSecond != 0 || steps[i].scan - steps[i - 10].scan != 10)
-      continue;
+    if (!clean || i % kPerSecond != 0 || steps[i].scan - steps[i - 10].scan != 10) continue;
     if (steps[i].scan >= script.begin && steps[i - 10].scan < script.end + 3 * kPerSecond) continue;
     outcome.nees_sum += drift_between(steps, i - 10, i).deviation2();
     ++outcome.nees_count;

@@ -26,7 +26,8 @@ struct Trial {
 
 struct Outcome {
   int scans = 0;
-  int clean = 0, clean_good = 0;  ///< scans before trouble and from 3 s after it on; status ok
+  /// Scans from 2 s after the start on, before trouble and from 3 s after it on; status ok.
+  int clean = 0, clean_good = 0;
   double worst_good_m = 0;        ///< error of a pose with status ok
   double worst_deviation_sd = 0;  ///< its Mahalanobis distance per root of dimension
   double unsaid_s = 0;     ///< longest from the first pose that is off by 0.3 m to a status not ok

@@ -32,6 +32,17 @@ TEST(Shortfalls, MoreThanATenthOfTheScansNotRegisteredIsOne) {
   EXPECT_EQ(lines[0].find("11 of 100 scans were not registered"), 0U);
 }
 
+TEST(Shortfalls, MoreThanATenthOfTheScansThatNothingHeldIsOne) {
+  autonomy::LockstepResult result = run_of(100, 11, OdometryReason::not_held, 1);
+  for (autonomy::ScanRecord& scan : result.scans)
+    if (scan.reason == OdometryReason::not_held) scan.status = OdometryStatus::open;
+  const auto lines = shortfalls(result, 1);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].find("in 11 of 100 scans nothing in sight held the pose"), 0U);
+  result.scans[0].status = OdometryStatus::ok;
+  EXPECT_TRUE(shortfalls(result, 1).empty());
+}
+
 TEST(Shortfalls, TimeThatDoesNotGoOnIsOne) {
   const auto lines = shortfalls(run_of(100, 1, OdometryReason::not_newer, 1), 1);
   ASSERT_EQ(lines.size(), 1U);

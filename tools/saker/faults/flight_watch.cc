@@ -152,7 +152,7 @@ void FlightWatch::refused(bool cause_known, const char* what) {
 }
 
 void FlightWatch::on_scan(const autonomy::IngestedScan& scan) {
-  const bool registered = scan.status == odometry::OdometryStatus::ok;
+  const bool registered = odometry::registered(scan.status);
   refused(registered || scan.reason != odometry::OdometryReason::none, "a scan");
 }
 

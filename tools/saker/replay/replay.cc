@@ -94,11 +94,16 @@ nlohmann::json scans_not_used(const autonomy::LockstepResult& result) {
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const autonomy::ScanRecord& scan = result.scans[i];
-    if (scan.status == odometry::OdometryStatus::ok) continue;
+    if (odometry::registered(scan.status)) continue;
     const std::string reason = scan.fault.empty() ? to_string(scan.reason) : scan.fault;
     list.push_back({{"scan", i}, {"name", scan.name}, {"reason", reason}});
   }
   return list;
+}
+
+std::ptrdiff_t scans_not_held(const autonomy::LockstepResult& result) {
+  return std::ranges::count(result.scans, odometry::OdometryStatus::open,
+                            &autonomy::ScanRecord::status);
 }
 
 nlohmann::json source_figures(const lidar::SourceCounters& counters) {
@@ -141,7 +146,8 @@ nlohmann::json figures(const autonomy::LockstepResult& result, double wall_s,
           {"segmentation",
            {{"probability", result.fit.probability},
             {"classified_share", result.fit.classified_share}}},
-          {"scans_not_registered", scans_not_used(result)}};
+          {"scans_not_registered", scans_not_used(result)},
+          {"scans_not_held", scans_not_held(result)}};
 }
 
 /// What a user wants to know at the end, and what was wrong with the recording.

@@ -7,7 +7,7 @@
 namespace saker::tools {
 namespace {
 
-constexpr double kMostNotRegistered = 0.1;  // share of the scans
+constexpr double kMostNotRegistered = 0.1;  // or not held: share of the scans
 
 }  // namespace
 
@@ -16,8 +16,11 @@ std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int 
     return std::count_if(result.scans.begin(), result.scans.end(), what);
   };
   const auto scans = static_cast<double>(result.scans.size());
-  const auto lost = count(
-      [](const autonomy::ScanRecord& scan) { return scan.status != odometry::OdometryStatus::ok; });
+  const auto lost =
+      count([](const autonomy::ScanRecord& scan) { return !odometry::registered(scan.status); });
+  const auto not_held = count([](const autonomy::ScanRecord& scan) {
+    return scan.status == odometry::OdometryStatus::open;
+  });
   const auto backwards = count([](const autonomy::ScanRecord& scan) {
     return scan.reason == odometry::OdometryReason::not_newer;
   });
@@ -26,6 +29,11 @@ std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int 
     lines.push_back(
         fmt::format("{} of {} scans were not registered: trajectory and map are in doubt", lost,
                     result.scans.size()));
+  if (static_cast<double>(not_held) > kMostNotRegistered * scans)
+    lines.push_back(fmt::format(
+        "in {} of {} scans nothing in sight held the pose in a direction: trajectory and map are "
+        "in doubt",
+        not_held, result.scans.size()));
   if (backwards > 0)
     lines.push_back(fmt::format("time did not go on in {} scans: they were not used", backwards));
   if (detections > 0 && result.map.objects.empty())
