@@ -79,6 +79,26 @@ TEST_F(Watched, ALorryThatPushesAVehicleAwayCameToIt) {
   EXPECT_FALSE(broken(Invariant::no_collision));
 }
 
+TEST_F(Watched, WhatAVehicleHitsAfterALorryDroveIntoItCountsNoMore) {
+  schedule = {fault(FaultKind::lorry, 0, 3)};
+  fly(0, 4);
+  truth.collisions = 1;
+  step(4);
+  truth.velocity = {2, 0, 0};
+  fly(4, 6);
+  truth.collisions = 2;
+  step(6);
+  EXPECT_FALSE(broken(Invariant::no_collision));
+}
+
+TEST_F(Watched, ALorryThatPassedLongAgoExcusesNothing) {
+  schedule = {fault(FaultKind::lorry, 0, 3)};
+  fly(0, 9);
+  truth.collisions = 1;
+  step(9);
+  EXPECT_TRUE(broken(Invariant::no_collision));
+}
+
 TEST_F(Watched, AVehicleThatFliesIntoALorryCouldHaveBraked) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
   truth.velocity = {1.5, 0, 0};

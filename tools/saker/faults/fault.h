@@ -80,6 +80,9 @@ enum class FaultPlace {
   cut,  ///< it loses its power in the middle of a write
 };
 
+/// A person or a lorry comes from there: in sight before it is where the vehicle was.
+inline constexpr double kMoverComesFrom_m = 12;
+
 /// One thing that goes wrong.
 struct Fault {
   FaultKind kind = FaultKind::lose;

@@ -19,7 +19,6 @@ using simulation::ScenarioEventKind;
 
 constexpr double kLorryHeight_m = 3.8, kLorryWidth_m = 2.5;
 constexpr double kPersonHeight_m = 1.8, kPersonWidth_m = 0.5;
-constexpr double kComesFrom_m = 12;  // a person, a lorry: in sight before it is there
 
 ScenarioEvent gust_event(const Fault& fault) {
   ScenarioEvent event;
@@ -40,7 +39,7 @@ ScenarioEvent wall_event(const Fault& fault) {
 ScenarioEvent mover(const Fault& fault, double height_m, double width_m) {
   ScenarioEvent event;
   event.kind = ScenarioEventKind::mover;
-  event.ahead_m = kComesFrom_m;
+  event.ahead_m = kMoverComesFrom_m;
   event.height_m = height_m;
   event.width_m = width_m;
   event.mover_mps = fault.strength;

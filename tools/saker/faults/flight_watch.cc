@@ -92,7 +92,8 @@ void FlightWatch::watch_collisions(const simulation::VehicleTruth& truth,
                                    const VehicleState& state) {
   if (truth.collisions == collisions_) return;
   collisions_ = truth.collisions;
-  if (unavoidable(truth, state)) return;
+  struck_ = struck_ || struck();
+  if (struck_ || unavoidable(truth, state)) return;
   const Eigen::Vector3d at = truth.T_world_body.translation();
   broken(Invariant::no_collision,
          fmt::format("at ({:.1f}, {:.1f}, {:.1f}) with {:.2f} m/s, mode {}, nearest {}", at.x(),
@@ -110,20 +111,26 @@ bool FlightWatch::unavoidable(const simulation::VehicleTruth& truth,
   return blown();
 }
 
-/// Something that came to a vehicle at rest, or stood there too late to brake for it.
+/// By a person or a lorry that came to a vehicle at rest and has not passed it.
+bool FlightWatch::struck() const {
+  return speeds_.front() < kStoodStill_mps &&
+         std::ranges::any_of(schedule_, [&](const Fault& fault) {
+           const bool moves = fault.kind == FaultKind::person || fault.kind == FaultKind::lorry;
+           return moves && now_s_ >= fault.at_s &&
+                  now_s_ < fault.at_s + 2 * kMoverComesFrom_m / fault.strength;
+         });
+}
+
+/// A wall that stood there too late to brake for it.
 bool FlightWatch::came_into_the_way() const {
-  for (const Fault& fault : schedule_) {
-    const bool mover = fault.kind == FaultKind::person || fault.kind == FaultKind::lorry;
-    if ((!mover && fault.kind != FaultKind::wall) || now_s_ < fault.at_s) continue;
-    if (mover && speeds_.front() < kStoodStill_mps) return true;
-    const double fastest = limits_.max_speed + (mover ? fault.strength : 0);
-    const double needed_m =
-        kBody_m + fastest * kReaction_s + fastest * fastest / (2 * limits_.max_acceleration);
-    const double ahead_m = mover ? 0 : fault.strength;
-    const bool at_once = now_s_ - fault.at_s < kReaction_s + fastest / limits_.max_acceleration;
-    if (!mover && ahead_m < needed_m && at_once) return true;
-  }
-  return false;
+  const double fastest = limits_.max_speed;
+  const double needed_m =
+      kBody_m + fastest * kReaction_s + fastest * fastest / (2 * limits_.max_acceleration);
+  const double stops_s = kReaction_s + fastest / limits_.max_acceleration;
+  return std::ranges::any_of(schedule_, [&](const Fault& fault) {
+    return fault.kind == FaultKind::wall && fault.strength < needed_m && now_s_ >= fault.at_s &&
+           now_s_ < fault.at_s + stops_s;
+  });
 }
 
 bool FlightWatch::blown() const {

@@ -41,7 +41,7 @@ struct Breach {
 /// for a second, is a breach while the status is ok.
 ///
 /// A collision is unavoidable where something came to a vehicle that moved by less than 0.5 m/s a
-/// second before (it is pushed then);
+/// second before: what it hits after that, with the thing still in or around it, counts no more;
 /// where a thing appeared within the distance that it takes to see it, think and brake; where the
 /// vehicle came down without a pose, which the flight controller does where it is, at less than
 /// 0.8 m/s over ground, or by an order to abort, which looks for no place; and where a gust of more
@@ -84,6 +84,7 @@ class FlightWatch : public autonomy::MissionObserver {
   void watch_memory();
   [[nodiscard]] bool unavoidable(const simulation::VehicleTruth& truth,
                                  const VehicleState& state) const;
+  [[nodiscard]] bool struck() const;
   [[nodiscard]] bool came_into_the_way() const;
   [[nodiscard]] bool blown() const;
   void broken(Invariant invariant, std::string text);
@@ -96,6 +97,7 @@ class FlightWatch : public autonomy::MissionObserver {
   double now_s_ = 0;
   simulation::VehicleTruth truth_;
   int collisions_ = 0;
+  bool struck_ = false;
   bool aborted_ = false;         // by an order that was accepted
   std::deque<double> speeds_;    // m/s over ground, of the last second
   double must_rest_s_ = NAN;     // when it was said
