@@ -128,6 +128,7 @@ void MissionLockstep::take_scan(const IngestedScan& scan, Time now) {
     ++result_.counters.scans_not_registered;
     return;
   }
+  result_.counters.scans_not_held += scan.status == odometry::OdometryStatus::open;
   heard_.odometry = registered.stamp;
   body_pose_.correct(registered.stamp, registered.T_odom_lidar, scan.covariance);
   timings_.time("checker", [&] { checker_.send(registered); });

@@ -46,6 +46,7 @@ class MissionObserver {
 struct MissionCounters {
   int scans = 0;
   int scans_not_registered = 0;
+  int scans_not_held = 0;  ///< registered, where nothing in sight held the pose in a direction
   int labelled_scans = 0;
   int slam_cycles = 0;
   int plans = 0;

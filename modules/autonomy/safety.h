@@ -64,7 +64,7 @@ struct SafetyConfig {
               "The vehicle's state (50 Hz) may be silent for so long.");
     v.setting("lidar_s", lidar_s, {0.15, 10}, "s", "The lidar (10 Hz) may be silent for so long.");
     v.setting("odometry_s", odometry_s, {0.15, 10}, "s",
-              "After so long without a registered scan the vehicle holds.");
+              "After so long without a registered scan, or with a pose so old, the vehicle holds.");
     v.setting("odometry_lost_s", odometry_lost_s, {0.2, 10}, "s",
               "After so long without a registered scan no setpoint is sent, unless the inertial "
               "unit knows the place.");

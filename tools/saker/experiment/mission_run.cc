@@ -102,6 +102,7 @@ Json mission_figures(const autonomy::MissionResult& result, const simulation::Ve
           {"path_m", truth.path_m},
           {"scans", counters.scans},
           {"scans_not_registered", counters.scans_not_registered},
+          {"scans_not_held", counters.scans_not_held},
           {"plans", counters.plans},
           {"refused_plans", counters.refused_plans},
           {"commits", counters.commits},

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kMostNotRegistered = 0.1;  // or not held: share of the scans
 
+constexpr double kBegins_s = 2;  // a new map of few scans holds less than it soon will
+
 }  // namespace
 
 std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int detections) {
@@ -18,8 +20,11 @@ std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int 
   const auto scans = static_cast<double>(result.scans.size());
   const auto lost =
       count([](const autonomy::ScanRecord& scan) { return !odometry::registered(scan.status); });
-  const auto not_held = count([](const autonomy::ScanRecord& scan) {
-    return scan.status == odometry::OdometryStatus::open;
+  const auto settled = [&](const autonomy::ScanRecord& scan) {
+    return to_seconds(scan.stamp - result.scans.front().stamp) >= kBegins_s;
+  };
+  const auto not_held = count([&](const autonomy::ScanRecord& scan) {
+    return settled(scan) && scan.status == odometry::OdometryStatus::open;
   });
   const auto backwards = count([](const autonomy::ScanRecord& scan) {
     return scan.reason == odometry::OdometryReason::not_newer;
@@ -29,7 +34,7 @@ std::vector<std::string> shortfalls(const autonomy::LockstepResult& result, int 
     lines.push_back(
         fmt::format("{} of {} scans were not registered: trajectory and map are in doubt", lost,
                     result.scans.size()));
-  if (static_cast<double>(not_held) > kMostNotRegistered * scans)
+  if (static_cast<double>(not_held) > kMostNotRegistered * static_cast<double>(count(settled)))
     lines.push_back(fmt::format(
         "in {} of {} scans nothing in sight held the pose in a direction: trajectory and map are "
         "in doubt",
