@@ -12,10 +12,14 @@ void AdaptiveGate::reset() {
   settled_ = false;
 }
 
-double AdaptiveGate::gate_m(double stretch) const {
-  if (!settled_) return config_.initial_m;
-  const double gate = 3 * std::sqrt(mean_square_) * std::max(1.0, stretch);
-  return std::clamp(gate, config_.least_m, std::max(config_.least_m, config_.most_m));
+double AdaptiveGate::gate_m(double stretch, const Matrix6d& predicted) const {
+  const double stated =
+      3 * std::sqrt(predicted.bottomRightCorner<3, 3>().trace() +
+                    config_.range_m * config_.range_m * predicted.topLeftCorner<3, 3>().trace());
+  const double learnt =
+      settled_ ? std::min(3 * std::sqrt(mean_square_) * std::max(1.0, stretch), config_.most_m)
+               : config_.initial_m;
+  return std::max(std::min(learnt, stated), config_.least_m);
 }
 
 void AdaptiveGate::learn(const SE3& deviation) {

@@ -29,13 +29,14 @@ struct AdaptiveGateConfig {
 
 /// How far from the map a point may be at the start of registration: three times the root mean
 /// square of how much the last predictions were wrong. Vizzo et al., "KISS-ICP" (RA-L 2023), eq.
-/// 4–9, with a memory that fades.
+/// 4–9, with a memory that fades; and no farther than three deviations that the prediction states.
 class AdaptiveGate {
  public:
   explicit AdaptiveGate(const AdaptiveGateConfig& config);
 
-  /// `stretch`: time since the last scan, in usual intervals.
-  [[nodiscard]] double gate_m(double stretch) const;
+  /// `stretch`: time since the last scan, in usual intervals; `predicted`: covariance of the pose
+  /// that registration starts from, tangent [rotation, translation].
+  [[nodiscard]] double gate_m(double stretch, const Matrix6d& predicted) const;
   [[nodiscard]] bool settled() const { return settled_; }
 
   /// The prediction was wrong by this much: prediction⁻¹ · pose.

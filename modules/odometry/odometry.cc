@@ -34,11 +34,6 @@ Eigen::Matrix3d place_in_odom(const SE3& T_odom_lidar, const Matrix6d& covarianc
   return R * covariance.bottomRightCorner<3, 3>() * R.transpose();
 }
 
-double share_of(const RegistrationResult& result, std::size_t points) {
-  return static_cast<double>(result.inliers) /
-         static_cast<double>(std::max<std::size_t>(points, 1));
-}
-
 }  // namespace
 
 const char* to_string(OdometryStatus status) {
@@ -152,10 +147,17 @@ void Odometry::deskew(const lidar::Scan& scan, const Sweep& sweep,
     scratch_.push_back(sweep.deskewed(scan.points[i], offset_of(scan, i)).cast<double>());
 }
 
+Odometry::Share Odometry::share_of(const RegistrationResult& result, std::size_t points) {
+  const double all = static_cast<double>(std::max<std::size_t>(points, 1));
+  return {result.inliers / all, result.established / all};
+}
+
 OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t points,
-                               double least_share) const {
+                               double least_share, bool expected) const {
   if (!registration_.enough(points)) return OdometryReason::too_few_points;
-  const bool usual = share_of(result, points) >= least_share * usual_share_;
+  const Share share = share_of(result, points);
+  const bool usual = share.on_planes >= least_share * usual_.on_planes &&
+                     (expected || share.on_established >= least_share * usual_.on_established);
   return usual && registration_.trustworthy(result, points) ? OdometryReason::none
                                                             : OdometryReason::no_fit;
 }
@@ -163,8 +165,10 @@ OdometryReason Odometry::judge(const RegistrationResult& result, std::size_t poi
 Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& prediction, Trust trust) {
   const Time span = Sweep::span_of(scan);
   const SE3& predicted = prediction.prior.T_odom_lidar;
+  const Time established = scan.stamp - from_seconds(config_.established_s);
   Fit fit;
-  fit.gate_m = gate_.gate_m(prediction.seconds / motion_.usual_interval_s());
+  fit.gate_m =
+      gate_.gate_m(prediction.seconds / motion_.usual_interval_s(), prediction.prior.covariance);
   const Start start = start_of(scan, prediction, fit.gate_m);
   const bool pointed_to = trust == Trust::prediction && !start.searched && !lost(prediction);
   fit.registration.T_odom_lidar = start.T_odom_lidar;
@@ -173,13 +177,13 @@ Odometry::Fit Odometry::fit(const lidar::Scan& scan, const Prediction& predictio
     const SE3 T_odom_lidar = fit.registration.T_odom_lidar;
     fit.sweep = motion_.sweep(prediction, T_odom_lidar, span, imu_.samples());
     deskew(scan, fit.sweep, round + 1 < rounds ? coarse_sample_ : registration_sample_);
-    fit.registration =
-        registration_.align(scratch_, prediction.prior, T_odom_lidar, map_, fit.gate_m);
+    fit.registration = registration_.align(scratch_, prediction.prior, T_odom_lidar, map_,
+                                           fit.gate_m, established);
     const bool expected = pointed_to && fit.registration.deviation_sd <= config_.expected_sd;
     const double least = trust == Trust::found ? config_.least_found_share
                          : expected            ? config_.least_usual_share
                                                : config_.least_unexpected_share;
-    fit.reason = judge(fit.registration, scratch_.size(), least);
+    fit.reason = judge(fit.registration, scratch_.size(), least, expected);
   }
   fit.share = share_of(fit.registration, scratch_.size());
   if (fit.reason == OdometryReason::none && start.ambiguous) fit.reason = OdometryReason::ambiguous;
@@ -233,8 +237,9 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   if (fit.reason == OdometryReason::none) {
     gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
     motion_.accept(prediction, fit.registration.T_odom_lidar, fit.registration.covariance);
-    const double keep = usual_share_ > 0 ? config_.share_memory : 0;
-    usual_share_ = keep * usual_share_ + (1 - keep) * fit.share;
+    const double keep = usual_.on_planes > 0 ? config_.share_memory : 0;
+    usual_.on_planes = keep * usual_.on_planes + (1 - keep) * fit.share.on_planes;
+    usual_.on_established = keep * usual_.on_established + (1 - keep) * fit.share.on_established;
     misfits_ = 0;
     return;
   }
@@ -250,7 +255,7 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   drifts_.push_back(
       {stamp_, place_in_odom(prediction.prior.T_odom_lidar, prediction.prior.covariance)});
   gate_.reset();
-  usual_share_ = 0;
+  usual_ = {};
 }
 
 void Odometry::keep_first(const lidar::Scan& scan) {

@@ -36,6 +36,7 @@ struct OdometryConfig {
   double least_unexpected_share = 0.8;
   double least_found_share = 0.6;
   double expected_sd = 3;
+  double established_s = 1;
   double share_memory = 0.9;
   VoxelMapConfig map;
   RegistrationConfig registration;
@@ -78,13 +79,17 @@ struct OdometryConfig {
     v.field("least_usual_share", least_usual_share, {0, 1}, "",
             "of the share of points that usually lies on planes of the map; less, and the scan is "
             "not registered: from a wrong place some fit, too");
-    v.field("least_unexpected_share", least_unexpected_share, {0, 1}, "",
-            "the same where the pose is not one that the prediction pointed to");
+    v.field(
+        "least_unexpected_share", least_unexpected_share, {0, 1}, "",
+        "the same where the pose is not one that the prediction pointed to; as much of what lies "
+        "on established planes must lie on them, too: what passes by is a scene that moves");
     v.field("least_found_share", least_found_share, {0, 1}, "",
             "the same where the scan before was found there, too: in made streets 0.7 to 0.9 in "
             "the right place, and 0.6 in one that the map lacks");
     v.field("expected_sd", expected_sd, {1, 100}, "",
             "from the prediction, a dimension: farther, and the pose is not expected");
+    v.field("established_s", established_s, {0, 60}, "s",
+            "a plane seen first so long ago is established: what passes by is out of its voxel");
     v.field("share_memory", share_memory, {0, 0.999}, "",
             "of the old usual share that a scan keeps");
     v.group("map", map, "the local map");
@@ -178,11 +183,16 @@ class Odometry {
     found        ///< the scan before was found there, too
   };
 
+  /// Of a scan's points.
+  struct Share {
+    double on_planes = 0, on_established = 0;
+  };
+
   struct Fit {
     RegistrationResult registration;
     Sweep sweep;
     double gate_m = 0;
-    double share = 0;  ///< of the points, on planes
+    Share share;  ///< of the points
     OdometryReason reason = OdometryReason::none;
     std::optional<RegistrationResult> found = std::nullopt;  ///< Start's, where it does not fit
   };
@@ -205,8 +215,9 @@ class Odometry {
                                             const Sweep& sweep);
   [[nodiscard]] Start start_of(const lidar::Scan& scan, const Prediction& prediction,
                                double gate_m);
+  [[nodiscard]] static Share share_of(const RegistrationResult& result, std::size_t points);
   [[nodiscard]] OdometryReason judge(const RegistrationResult& result, std::size_t points,
-                                     double least_share) const;
+                                     double least_share, bool expected) const;
   [[nodiscard]] OdometryEstimate report(const lidar::Scan& scan, const Prediction& prediction,
                                         const Fit& fit);
 
@@ -259,7 +270,7 @@ class Odometry {
   Time pruned_stamp_ = 0;
   int misfits_ = 0;            // scans in a row
   std::vector<Drift> drifts_;  // of the last second
-  double usual_share_ = 0;     // of points on planes; 0: not known yet
+  Share usual_;                // 0: not known yet
   FirstScan first_;            // emptied when it was put in again
   std::vector<std::uint32_t> map_sample_, registration_sample_, coarse_sample_;
   std::vector<Eigen::Vector3d> scratch_;

@@ -64,11 +64,13 @@ std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& sc
 /// Which of two predictions explains the scan: points first, then the motion.
 bool Odometry::more_likely(const Fit& a, const Prediction& of_a, const Fit& b,
                            const Prediction& of_b) {
-  if (b.reason == OdometryReason::ambiguous && a.share <= kClearlyMore * b.share) return false;
+  if (b.reason == OdometryReason::ambiguous &&
+      a.share.on_planes <= kClearlyMore * b.share.on_planes)
+    return false;
   const bool a_fits = a.reason == OdometryReason::none, b_fits = b.reason == OdometryReason::none;
   if (a_fits != b_fits) return a_fits;
-  if (a.share > kClearlyMore * b.share) return true;
-  if (b.share > kClearlyMore * a.share) return false;
+  if (a.share.on_planes > kClearlyMore * b.share.on_planes) return true;
+  if (b.share.on_planes > kClearlyMore * a.share.on_planes) return false;
   return surprise(a.registration.T_odom_lidar, of_a.prior) <
          surprise(b.registration.T_odom_lidar, of_b.prior);
 }

@@ -65,6 +65,7 @@ Registration::NormalEquations Registration::linearise(const SE3& T, double gate_
     sum.weights += robust * robust;
     if (robust < 0.7) continue;
     ++sum.inliers;
+    sum.established += plane.first_seen < established_;
     sum.square_sum += r * r;
   }
   sum.H = sum.H.selfadjointView<Eigen::Lower>();
@@ -102,7 +103,8 @@ Matrix6d Registration::held_covariance(const NormalEquations& sum,
 
 RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
                                        const PosePrior& prior, const SE3& start, VoxelMap& map,
-                                       double gate_m) {
+                                       double gate_m, Time established) {
+  established_ = established;
   RegistrationResult result;
   result.T_odom_lidar = start;
   const Matrix6d prior_information = prior.covariance.inverse();
@@ -126,6 +128,7 @@ RegistrationResult Registration::align(std::span<const Eigen::Vector3d> points,
     result.T_odom_lidar = result.T_odom_lidar * core::se3_exp(step);
     ++result.iterations;
     result.inliers = sum.inliers;
+    result.established = sum.established;
     result.rms_m = sum.inliers > 0 ? std::sqrt(sum.square_sum / sum.inliers) : 0;
     result.converged =
         step.head<3>().norm() < config_.stop_rad && step.tail<3>().norm() < config_.stop_m;

@@ -65,6 +65,7 @@ struct RegistrationResult {
       Matrix6d::Constant(NAN);  ///< without what noise of normals seems to hold
   int iterations = 0;
   int inliers = 0;          ///< points on a plane, with at least half their weight
+  int established = 0;      ///< of these, on planes first seen before the time given
   double rms_m = 0;         ///< of the inliers' distances to their planes
   double deviation_sd = 0;  ///< from the prior, Mahalanobis, per root of dimension
   bool converged = false;
@@ -89,10 +90,11 @@ class Registration {
  public:
   explicit Registration(const RegistrationConfig& config) : config_(config) {}
 
-  /// Points in the lidar frame, finite; `start` is where the search begins.
+  /// Points in the lidar frame, finite; `start` is where the search begins; planes first seen
+  /// before `established` are counted apart.
   [[nodiscard]] RegistrationResult align(std::span<const Eigen::Vector3d> points,
                                          const PosePrior& prior, const SE3& start, VoxelMap& map,
-                                         double gate_m);
+                                         double gate_m, Time established = 0);
 
   /// Whether so many points can be registered at all.
   [[nodiscard]] bool enough(std::size_t points) const {
@@ -110,6 +112,7 @@ class Registration {
     double weights = 0;
     double square_sum = 0;
     int inliers = 0;
+    int established = 0;
   };
 
   /// A point in the lidar frame and the plane it should lie on.
@@ -128,6 +131,7 @@ class Registration {
 
   RegistrationConfig config_;
   std::vector<Match> matches_;
+  Time established_ = 0;
   std::vector<float> distances_;
 };
 

@@ -26,6 +26,7 @@ void VoxelMap::insert(std::span<const Eigen::Vector3d> points, Time stamp) {
     if (at == voxels_.size()) {
       Voxel& fresh = voxels_.emplace_back();
       fresh.key = key;
+      fresh.first_seen = stamp;
       fresh.corner = cell.cast<double>() * config_.voxel_m;
     }
     Voxel& voxel = voxels_[at];
@@ -73,7 +74,7 @@ VoxelMap::Voxel* VoxelMap::plane_at(const Eigen::Vector3i& cell) {
 std::optional<Plane> VoxelMap::nearest_plane(const Eigen::Vector3d& point, bool wide) {
   const auto plane = [](const Voxel& v) {
     return Plane{v.corner + v.mean.cast<double>(), v.normal.cast<double>(), v.variance,
-                 v.tilt.cast<double>()};
+                 v.first_seen, v.tilt.cast<double>()};
   };
   const Eigen::Vector3i own = voxel_cell(point, 1 / config_.voxel_m);
   if (const Voxel* voxel = plane_at(own)) return plane(*voxel);

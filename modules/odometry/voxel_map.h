@@ -46,6 +46,7 @@ struct Plane {
   Eigen::Vector3d point;   ///< mean of what was seen
   Eigen::Vector3d normal;  ///< unit
   double variance = 0;     ///< of the points along the normal, m²
+  Time first_seen = 0;     ///< any point of it
   /// What the fit leaves open of the normal: with independent points it is off by
   /// sqrt(variance) · tilt · N(0, I); 1/m.
   Eigen::Matrix<double, 3, 2> tilt = Eigen::Matrix<double, 3, 2>::Zero();
@@ -87,7 +88,7 @@ class VoxelMap {
   enum class Shape : std::uint8_t { unknown, plane, other };
   struct Voxel {
     VoxelKey key = 0;
-    Time last_seen = 0;
+    Time first_seen = 0, last_seen = 0;
     Eigen::Vector3d corner =
         Eigen::Vector3d::Zero();  // sums are relative to it: small numbers, exact in float
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
