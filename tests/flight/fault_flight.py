@@ -41,6 +41,13 @@ class Flight:
     def __init__(self, folder, event="", settings=(), prior=lambda objects: objects, environment=None, mavlink=""):
         self.folder, self.processes = pathlib.Path(folder), {}
         self.environment = environment or {}  # of the executive, beside this one's
+        try:
+            self.begin(event, settings, prior, mavlink)
+        except BaseException:
+            self.end()
+            raise
+
+    def begin(self, event, settings, prior, mavlink):
         scenario = self.folder / "scenario.yaml"
         scenario.write_text(SCENARIO.read_text() + (f"  events: [{event}]\n" if event else ""))
         self.site, self.out = self.folder / "simulator", self.folder / "executive"

@@ -221,5 +221,30 @@ TEST(Odometry, AVehicleAheadThatMovesAlongDoesNotBias) {
   EXPECT_NEAR(estimate.T_odom_lidar.translation().x(), motion(40 * kPeriod).translation().x(), 0.1);
 }
 
+TEST(Odometry, ALorryThatPassesCloseByDoesNotCarryItAlong) {
+  // It hides one side of the street, and for three scans nothing but it is in sight.
+  MadeSensor sensor;
+  sensor.range_noise_m = 0.02;
+  Odometry odometry{OdometryConfig{}};
+  const Motion stands = testing::straight(0);
+  const std::vector<lidar::ImuSample> samples =
+      testing::imu(stands, 0, 80 * kPeriod, Eigen::Vector3d::Zero());
+  for (int k = 1; k <= 80; ++k) {
+    const double x = 5 * 0.1 * (k - 40);
+    const bool around = std::abs(k - 40) <= 1;
+    MadeWorld world = testing::street();
+    world.boxes.push_back({{x - 4.5, 0.8, 0.3}, {x + 4.5, 3.3, 3.8}});
+    if (around) world.boxes.push_back({{x - 4.5, -0.9, 0}, {x + 4.5, -0.8, 3.8}});
+    if (around) world.boxes.push_back({{x - 4.5, -0.9, 2.5}, {x + 4.5, 0.9, 3.8}});
+    if (around) world.boxes.push_back({{x + 4.4, -0.9, 0}, {x + 4.5, 0.9, 3.8}});
+    if (around) world.boxes.push_back({{x - 4.5, -0.9, 0}, {x - 4.4, 0.9, 3.8}});
+    const OdometryEstimate estimate = odometry.register_scan(
+        scan(world, sensor, stands, k * kPeriod),
+        std::span(samples).subspan(static_cast<std::size_t>(10 * (k - 1)), 10));
+    const SE3& is = estimate.T_odom_lidar;
+    EXPECT_LT(is.translation().norm(), 0.1) << k << " " << to_string(estimate.status);
+  }
+}
+
 }  // namespace
 }  // namespace saker::odometry

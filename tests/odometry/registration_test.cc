@@ -142,6 +142,20 @@ TEST(Registration, OutliersOnNoPlaneMoveItLittle) {
   EXPECT_LT(distance(aligned(points, prior(1), map_of(world)).T_odom_lidar, T), 0.01);
 }
 
+TEST(Registration, WhatLiesOnPlanesSeenEarlyIsCountedApart) {
+  const Points early = faces({0, 1}, 0, 9), late = faces({2}, 0, 10);
+  VoxelMap map = map_of(early);
+  map.insert(late, 100);
+  Points points = scan(early, SE3::Identity());
+  const auto of_early = static_cast<double>(points.size());
+  for (const Eigen::Vector3d& point : scan(late, SE3::Identity())) points.push_back(point);
+  const auto all = static_cast<double>(points.size());
+  Registration registration({});
+  const auto result = registration.align(points, prior(0.1), SE3::Identity(), map, 1, 100);
+  EXPECT_GT(result.inliers, 0.8 * all);  // edges are on no plane
+  EXPECT_NEAR(result.established / static_cast<double>(result.inliers), of_early / all, 0.02);
+}
+
 TEST(Registration, CovarianceIsSymmetricAndPositiveAndCoversTheErrors) {
   const VoxelMap map = map_of(faces({0, 1, 2}, 0.01, 9));
   double squared = 0;

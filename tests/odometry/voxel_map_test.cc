@@ -33,6 +33,13 @@ TEST(VoxelMap, FindsThePlaneThatPointsLieOn) {
   EXPECT_LT(plane->variance, 1e-5);
 }
 
+TEST(VoxelMap, APlaneKnowsSinceWhenItIsThere) {
+  VoxelMap map(VoxelMapConfig{});
+  const auto points = disc({0.3, 0.3, 0.3}, {0, 0, 1}, 0.2, 0, 50);
+  for (const Time stamp : {5, 7, 9}) map.insert(points, stamp);
+  EXPECT_EQ(map.nearest_plane({0.3, 0.3, 0.3}, false)->first_seen, 5);
+}
+
 TEST(VoxelMap, VarianceOfAPlaneIsThatOfItsNoise) {
   VoxelMapConfig config;
   config.voxel_m = 2;
