@@ -1,65 +1,58 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "saker/objects/class_table.h"
+#include "saker/segmentation/piece_features.h"
 #include "saker/segmentation/pieces.h"
 
 namespace saker::segmentation {
 
 /// Lets the pixels of one trunk or pole decide together what it is. Reads the image and the
-/// network's probabilities; changes the probabilities of classes that are cylinders.
+/// network's probabilities; changes them where cylinders are likely.
 ///
-/// A piece is what hangs together of the pixels that are more likely a cylinder than not. It is one
-/// object, so that its pixels share one ratio of classes with leaves (trunks) to those without
-/// (poles):
+/// A piece is what hangs together of the pixels that are more likely a cylinder than not. It is a
+/// part of one object: trunk (a class with a crown), pole (one without) or neither. With the
+/// features f of the piece (piece_features.h) and the weights w of the network's description
 ///
-///   ln(P_trunk / P_pole) = w · mean of ln(p_trunk / p_pole) + ln p(width | trunk) - ln p(width |
-///   pole)
+///   P(kind) = exp(w_kind · f) / (exp(w_trunk · f) + exp(w_pole · f) + 1),   P(neither) the rest,
 ///
-/// where w tempers what the pixels say, for they are not independent, and the width, across the
-/// line of sight, has the class table's log-normal (`size_m`, `width_sd_m`), widened by the pixels'
-/// own width. A piece of a few pixels, or one that is both short and stout, is no cylinder: its
-/// share goes to class 0. Classes of the table that state no slim width are told by the pixels
-/// alone. Frame: lidar. Cost: 1 ms for 64×1024; allocates nothing after the first scans.
+/// a multinomial logistic regression, fitted to simulated worlds (scripts/segmentation-fit). The
+/// pixel's probability of trunks becomes P(trunk), that of poles P(pole), and the other classes
+/// share P(neither) as the network has it. Frame: lidar. Cost: 1 ms for 64×1024; allocates nothing
+/// after the first scans.
 class CylinderPieces {
  public:
-  explicit CylinderPieces(const objects::ClassTable& table);
+  using Piece = std::vector<std::int32_t>;  ///< pixels
+
+  /// Without a model the network's probabilities stay.
+  CylinderPieces(const objects::ClassTable& table, const std::optional<PieceModel>& model);
 
   /// \param up  unit, lidar frame
   void decide(const RangeImage& image, const Eigen::Vector3f& up, PixelProbabilities& pixels);
 
+  /// Calls `take(piece, features)` for every piece that decide() would decide on.
+  template <class Take>
+  void for_each(const RangeImage& image, const Eigen::Vector3f& up,
+                const PixelProbabilities& pixels, const Take& take) {
+    if (crowned_.empty() || bare_.empty() || neither_.empty()) return;
+    find_members(image, pixels);
+    pieces_.for_each(image, up, member_, [&](const Piece& piece) {
+      take(piece, meter_.measure(piece, image, up, crowned_, bare_, pixels));
+    });
+  }
+
  private:
-  /// What the classes of a group, trunks or poles, have in common.
-  struct Group {
-    std::vector<int> classes;
-    float width = 0;        ///< m, of the slimmest class; 0: none states one
-    float relative_sd = 0;  ///< of the width
+  void find_members(const RangeImage& image, const PixelProbabilities& pixels);
+  void share(const Piece& piece, const PieceFeatures& features, PixelProbabilities& pixels) const;
 
-    [[nodiscard]] float log_likelihood(float width, float pixel_width) const;
-  };
-
-  /// A piece's extents, m.
-  struct Extents {
-    float height = 0;
-    float width = 0;        ///< across the line of sight; 0 where that is vertical
-    float pixel_width = 0;  ///< that one pixel covers across
-  };
-
-  using Piece = std::vector<std::int32_t>;
-
-  [[nodiscard]] Extents measure(const Piece& piece, const RangeImage& image,
-                                const Eigen::Vector3f& up);
-  [[nodiscard]] float log_odds(const Piece& piece, const Extents& extents,
-                               const PixelProbabilities& pixels) const;
-  void share(const Piece& piece, float log_odds, PixelProbabilities& pixels) const;
-
-  Group crowned_, bare_;
-  std::vector<int> all_;  ///< classes of both
+  std::vector<int> crowned_, bare_, neither_;  ///< classes of trunks, of poles and the others
+  std::optional<PieceModel> model_;
   Pieces pieces_;
+  PieceMeter meter_;
   std::vector<std::uint8_t> member_;
-  std::vector<float> scratch_;
 };
 
 }  // namespace saker::segmentation

@@ -46,13 +46,4 @@ float sum_of(const std::vector<int>& classes, const float* pixel) {
   return sum;
 }
 
-void refuse(const std::vector<std::int32_t>& piece, const std::vector<int>& classes,
-            PixelProbabilities& pixels) {
-  for (const std::int32_t i : piece) {
-    float* pixel = &pixels.values[static_cast<std::size_t>(i) * pixels.classes];
-    pixel[0] += sum_of(classes, pixel);
-    for (const int k : classes) pixel[k] = 0;
-  }
-}
-
 }  // namespace saker::segmentation

@@ -50,8 +50,4 @@ class Pieces {
 /// The probability of some classes together at a pixel.
 [[nodiscard]] float sum_of(const std::vector<int>& classes, const float* pixel);
 
-/// Gives the probability of some classes at the piece's pixels to class 0.
-void refuse(const std::vector<std::int32_t>& piece, const std::vector<int>& classes,
-            PixelProbabilities& pixels);
-
 }  // namespace saker::segmentation

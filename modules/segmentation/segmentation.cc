@@ -19,9 +19,16 @@ std::string read_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+fs::path weights_of(const SegmentationConfig& config) {
+  return core::find_in_configs(config.model, "segmentation.model");
+}
+
+fs::path description_of(const SegmentationConfig& config) {
+  return weights_of(config).replace_extension(".yaml");
+}
+
 Network load(const SegmentationConfig& config, const objects::ClassTable& table) {
-  const fs::path file = core::find_in_configs(config.model, "segmentation.model");
-  const fs::path description = fs::path(file).replace_extension(".yaml");
+  const fs::path file = weights_of(config), description = description_of(config);
   const Sidecar sidecar = read_sidecar(description);
   const std::string weights = read_bytes(file);
   return Network(weights, file, kChannelCount, check_sidecar(sidecar, description, table, weights));
@@ -34,7 +41,7 @@ Segmentation::Segmentation(const SegmentationConfig& config, const objects::Clas
     : config_(core::checked(config, "segmentation")),
       network_(load(config_, table)),
       features_(up),
-      cylinder_pieces_(table) {}
+      cylinder_pieces_(table, read_sidecar(description_of(config_)).cylinders) {}
 
 /// The scan itself where its frame is the sensor's, else a copy in that.
 const lidar::Scan& Segmentation::in_sensor_frame(const lidar::Scan& scan) {
@@ -71,6 +78,21 @@ lidar::Labels Segmentation::segment(const lidar::Scan& given) {
   PixelProbabilities& pixels = probabilities();
   cylinder_pieces_.decide(image_, features_.up(), pixels);
   return back_projection_.label(scan, image_, pixels);
+}
+
+std::vector<Segmentation::SeenPiece> Segmentation::cylinder_pieces(const lidar::Scan& given) {
+  std::vector<SeenPiece> seen;
+  project(in_sensor_frame(given), image_);
+  if (image_.size() == 0) return seen;
+  const PixelProbabilities& pixels =
+      network_.run(features_.compute(image_), image_.rows, image_.columns);
+  cylinder_pieces_.for_each(image_, features_.up(), pixels,
+                            [&](const CylinderPieces::Piece& piece, const PieceFeatures& features) {
+                              seen.push_back({features, {}});
+                              for (const std::int32_t i : piece)
+                                seen.back().points.push_back(image_.point[i]);
+                            });
+  return seen;
 }
 
 }  // namespace saker::segmentation

@@ -49,6 +49,14 @@ class Segmentation {
   /// The classes are indices into the table.
   [[nodiscard]] lidar::Labels segment(const lidar::Scan& scan);
 
+  /// A piece of the scan that may be a trunk or a pole.
+  struct SeenPiece {
+    PieceFeatures features;
+    std::vector<std::int32_t> points;  ///< of the scan, one a pixel
+  };
+  /// Those that segment() decides on: for the fit of how it does.
+  [[nodiscard]] std::vector<SeenPiece> cylinder_pieces(const lidar::Scan& scan);
+
  private:
   [[nodiscard]] const lidar::Scan& in_sensor_frame(const lidar::Scan& scan);
   [[nodiscard]] PixelProbabilities& probabilities();

@@ -3,6 +3,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "saker/core/error.h"
 #include "saker/core/sha256.h"
@@ -33,6 +35,24 @@ void expect_same(const std::vector<std::string>& found, const std::vector<std::s
   throw Error(file.string() + ": " + what + " " + joined(found) + ", expected " + joined(expected));
 }
 
+/// Weights of one kind, in the order of kPieceFeatures.
+PieceFeatures read_weights(const YAML::Node& cylinders, const std::string& kind,
+                           const std::filesystem::path& file) {
+  const auto weights = read_key<std::map<std::string, float>>(cylinders, kind, file);
+  PieceFeatures read;
+  for (int k = 0; k < kPieceFeatureCount; ++k) {
+    const auto found = weights.find(kPieceFeatures[k]);
+    if (found == weights.end() || !std::isfinite(found->second)) {
+      throw Error(file.string() + ": cylinders, " + kind + ": expected a number for " +
+                  kPieceFeatures[k]);
+    }
+    read[k] = found->second;
+  }
+  if (weights.size() == kPieceFeatures.size()) return read;
+  throw Error(file.string() + ": cylinders, " + kind + ": " + std::to_string(weights.size()) +
+              " weights, expected " + std::to_string(kPieceFeatureCount));
+}
+
 }  // namespace
 
 Sidecar read_sidecar(const std::filesystem::path& file) {
@@ -51,6 +71,10 @@ Sidecar read_sidecar(const std::filesystem::path& file) {
       root["outputs"] ? read_key<std::vector<std::string>>(root, "outputs", file) : sidecar.classes;
   sidecar.channels = read_key<std::vector<std::string>>(root, "channels", file);
   sidecar.sha256 = read_key<std::string>(root, "sha256", file);
+  if (const YAML::Node cylinders = root["cylinders"]) {
+    sidecar.cylinders = PieceModel{.crowned = read_weights(cylinders, "crowned", file),
+                                   .bare = read_weights(cylinders, "bare", file)};
+  }
   return sidecar;
 }
 

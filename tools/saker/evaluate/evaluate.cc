@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "flight/run_files/detections_file.h"
 #include "saker/core/error.h"
@@ -17,6 +18,7 @@
 #include "tools/saker/configuration.h"
 #include "tools/saker/evaluate/evaluation.h"
 #include "tools/saker/evaluate/labelled_folder.h"
+#include "tools/saker/evaluate/piece_table.h"
 #include "tools/saker/evaluate/vehicle_figures.h"
 #include "tools/saker/evaluate/window_figures.h"
 
@@ -31,11 +33,33 @@ struct EvaluateOptions {
   std::string metadata;
   std::string run;  ///< what `saker replay` left, or empty
   double label_sd_m = 0.1;
+  bool pieces = false;
 };
 
-/// Segments and judges every labelled scan of the folder.
+/// OUT/pieces.csv.
+class PieceFile {
+ public:
+  PieceFile(const fs::path& file, const objects::ClassTable& table)
+      : file_(file), table_(table), figures_(table) {
+    file_.write(piece_header());
+  }
+  void add(const lidar::Frame& frame, std::span<const std::uint32_t> ids,
+           segmentation::Segmentation& stage) {
+    for (const auto& piece : stage.cylinder_pieces(frame.scan)) {
+      file_.write(piece_row(frame.name, piece, ids, figures_, table_));
+    }
+  }
+  void finish() { file_.finish(); }
+
+ private:
+  core::OutputFile file_;
+  const objects::ClassTable& table_;
+  SegmentationFigures figures_;
+};
+
+/// Segments and judges every labelled scan of the folder. \param pieces  or null.
 void evaluate_scans(const EvaluateOptions& options, segmentation::Segmentation& stage,
-                    Evaluation& evaluation) {
+                    Evaluation& evaluation, PieceFile* pieces) {
   const LabelledFolder truth(options.folder);
   const auto source =
       lidar::open_recording(options.folder, lidar::RecordingFormat::kAutomatic, options.metadata);
@@ -50,6 +74,7 @@ void evaluate_scans(const EvaluateOptions& options, segmentation::Segmentation& 
     const auto ids = truth.ids(frame->name, frame->scan.size());
     const auto* boxes = truth.boxes(frame->name);
     if (!ids && boxes == nullptr) continue;
+    if (pieces != nullptr && ids) pieces->add(*frame, *ids, stage);
     const auto start = std::chrono::steady_clock::now();
     const lidar::Labels labels = stage.segment(frame->scan);
     const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
@@ -66,7 +91,10 @@ Json segmentation_figures(const EvaluateOptions& options, const CommonOptions& c
   const autonomy::Config config = read_configuration(common).autonomy;
   segmentation::Segmentation stage(config.segmentation, config.objects);
   Evaluation evaluation(config.objects);
-  evaluate_scans(options, stage, evaluation);
+  std::optional<PieceFile> pieces;
+  if (options.pieces) pieces.emplace(*out / "pieces.csv", config.objects);
+  evaluate_scans(options, stage, evaluation, pieces ? &*pieces : nullptr);
+  if (pieces) pieces->finish();
   const Json figures = evaluation.json();
   std::cout << evaluation_text(figures);
   if (!out) return figures;
@@ -124,6 +152,7 @@ int evaluate(const EvaluateOptions& options, const CommonOptions& common) {
   }
   std::optional<OutputFolder> out;
   if (!common.out.empty()) out.emplace(common);
+  if (options.pieces && !out) throw Error("--pieces: expected -o OUT beside it");
   const Json figures = options.run.empty() ? segmentation_figures(options, common, out)
                                            : map_figures(options, common);
   if (out) core::write_file(*out / "evaluation.json", figures.dump(1) + "\n");
@@ -150,6 +179,9 @@ void add_evaluate(Commands& commands) {
                  "judge the map and the single windows that saker replay left in this folder by "
                  "FOLDER/vehicles.json")
       ->type_name("RUN");
+  app.add_flag("--pieces", options->pieces,
+               "also OUT/pieces.csv: what tells trunks from poles, by what is labelled "
+               "(scripts/segmentation-fit)");
   app.add_option("--label-sd", options->label_sd_m,
                  "of a labelled length, width and place, m: part of the NEES")
       ->type_name("M")
