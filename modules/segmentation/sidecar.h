@@ -15,14 +15,15 @@ namespace saker::segmentation {
 struct Sidecar {
   std::vector<std::string>
       outputs;  ///< what the network tells apart, in its order; else its classes
-  std::vector<std::string> classes;     ///< of the class table, one an output
-  std::vector<std::string> channels;    ///< in the order of its input
-  std::string sha256;                   ///< of the weights' file
-  std::optional<PieceModel> cylinders;  ///< of cylinder_pieces.h; none: pixels decide alone
+  std::vector<std::string> classes;   ///< of the class table, one an output
+  std::vector<std::string> channels;  ///< in the order of its input
+  std::string sha256;                 ///< of the weights' file
+  /// Of object_pieces.h; none: pixels decide alone.
+  std::optional<PieceModel> cylinders, vehicles;
 };
 
 /// Throws Error where the file is not there or a key is missing or of the wrong type, or
-/// `cylinders` does not have a finite weight for each of kPieceFeatures.
+/// `cylinders` or `vehicles` does not have a finite weight for each of the family's features.
 [[nodiscard]] Sidecar read_sidecar(const std::filesystem::path& file);
 
 /// \return the index into the table of each output's class.

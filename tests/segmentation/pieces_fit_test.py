@@ -37,6 +37,13 @@ class Fit(unittest.TestCase):
         features, pixels = made(20000, 3)
         self.assertLess(abs(pieces.fit(features, pixels) - TRUE).max(), 0.1)
 
+    def test_one_kind_against_neither_is_found_too(self):
+        rng = np.random.default_rng(3)
+        features = np.column_stack([np.ones(20000), rng.normal(size=20000)])
+        true = np.array([[0.4, -1.5]])
+        is_one = rng.random(20000) < pieces.probabilities(features, true)[:, 0]
+        self.assertLess(abs(pieces.fit(features, np.column_stack([is_one, ~is_one]).astype(float)) - true).max(), 0.1)
+
     def test_probabilities_sum_to_one_however_large_the_scores_are(self):
         p = pieces.probabilities(np.array([[1.0, 1000.0], [1.0, -1000.0]]), TRUE)
         self.assertTrue(np.allclose(p.sum(1), 1))
@@ -64,6 +71,13 @@ class Fit(unittest.TestCase):
 
 
 class Description(unittest.TestCase):
+    def test_a_table_of_no_family_is_refused(self):
+        with tempfile.TemporaryDirectory(prefix="saker_pieces_") as folder:
+            rows = pathlib.Path(folder, "pieces.csv")
+            rows.write_text("scan,one,cat,dog\n")
+            with self.assertRaisesRegex(SystemExit, "scan,one,cat,dog: expected those of cylinders or vehicles"):
+                pieces.read([rows])
+
     def test_it_is_written_into_the_description_once(self):
         with tempfile.TemporaryDirectory(prefix="saker_pieces_") as folder:
             model, rows = pathlib.Path(folder, "m.yaml"), pathlib.Path(folder, "pieces.csv")

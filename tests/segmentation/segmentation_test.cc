@@ -96,11 +96,11 @@ TEST_F(ShippedModel, CallsEverythingOtherWhereThereIsNothing) {
 
 TEST_F(ShippedModel, ShowsThePiecesThatItDecidesOn) {
   const lidar::Scan scan = MadeScan{}.organised();
-  for (const auto& piece : segmentation_.cylinder_pieces(scan)) {
+  for (const auto& piece : segmentation_.pieces(scan)) {
     ASSERT_FALSE(piece.points.empty());
     for (const std::int32_t i : piece.points) ASSERT_TRUE(scan.points[i].allFinite());
   }
-  EXPECT_TRUE(segmentation_.cylinder_pieces(lidar::Scan{}).empty());
+  EXPECT_TRUE(segmentation_.pieces(lidar::Scan{}).empty());
 }
 
 TEST_F(ShippedModel, GivesProbabilities) {

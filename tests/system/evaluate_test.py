@@ -48,8 +48,9 @@ class Evaluate(ProgramTest):
         out = self.folder / "out"
         run = saker("evaluate", self.drive, "-o", out, "--pieces")
         self.assertEqual(run.returncode, 0, run.stderr)
-        header = (out / "pieces.csv").read_text().splitlines()[0]
-        self.assertTrue(header.startswith("scan,one,") and header.endswith(",crowned,bare,neither"), header)
+        for family, kinds in ("cylinders", ",crowned,bare,neither"), ("vehicles", ",vehicle,neither"):
+            header = (out / f"{family}.csv").read_text().splitlines()[0]
+            self.assertTrue(header.startswith("scan,one,") and header.endswith(kinds), header)
 
     def test_pieces_without_a_folder_for_them_are_refused(self):
         self.assertIn("-o OUT", self.refused("evaluate", self.drive, "--pieces"))

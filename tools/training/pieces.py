@@ -1,8 +1,9 @@
-"""pieces.py MODEL.yaml PIECES.csv…: what `saker evaluate --pieces` left of labelled scans → `cylinders` in the network's description, the
-weights by which a piece is a trunk (crowned), a pole (bare) or neither: modules/segmentation/cylinder_pieces.h.
+"""pieces.py MODEL.yaml TABLE.csv…: what `saker evaluate --pieces` left of labelled scans (cylinders.csv or vehicles.csv) → a block of that
+name in the network's description, the weights by which a piece is a trunk (crowned), a pole (bare) or neither; a vehicle or not:
+modules/segmentation/object_pieces.h.
 
 The weights are those of greatest likelihood, ln L = Σ over pieces of pixels^(power - 1) · Σ over kinds of pixels labelled so · ln P(kind): with
-power 1 each pixel counts, with 0 each piece. The power is that of the highest mean IoU of trunks and poles on pieces of worlds held out."""
+power 1 each pixel counts, with 0 each piece. The power is that of the highest mean IoU of the kinds on pieces of worlds held out."""
 
 import argparse
 import csv
@@ -11,7 +12,7 @@ import re
 
 import numpy as np
 
-KINDS = ("crowned", "bare", "neither")
+FAMILIES = {"cylinders": ("crowned", "bare", "neither"), "vehicles": ("vehicle", "neither")}
 POWERS = (0.0, 0.5, 1.0)
 FOLDS = 5
 SCANS_OF_A_WORLD = 4  # configs/scenarios/training.yaml
@@ -19,21 +20,30 @@ STEPS, ENOUGH = 100, 1e-10  # of Newton's method; the gain of the mean log-likel
 RIDGE = 1e-6  # of the Hessian of the mean: features that depend on each other
 
 
+def family_of(names):
+    """Name and kinds of the family that a table is of, by its last columns."""
+    for family, kinds in FAMILIES.items():
+        if tuple(names[-len(kinds):]) == kinds:
+            return family, kinds
+    raise SystemExit(f"pieces.py: columns {','.join(names)}: expected those of {' or '.join(FAMILIES)}")
+
+
 def read(files):
-    """Names of the features, features (n, d), pixels by kind (n, 3), number of each piece's world."""
+    """Family, names of the features, features (n, d), pixels by kind (n, kinds), number of each piece's world."""
     features, pixels, worlds = [], [], []
     for number, file in enumerate(files):
         with file.open() as lines:
             names, *rows = csv.reader(lines)
+        family, kinds = family_of(names)
         for scan, *values in rows:
-            features.append(values[:-len(KINDS)])
-            pixels.append(values[-len(KINDS):])
+            features.append(values[:-len(kinds)])
+            pixels.append(values[-len(kinds):])
             worlds.append(number + int(re.sub(r"\D", "", scan) or 0) // SCANS_OF_A_WORLD)
-    return names[1:-len(KINDS)], np.array(features, float), np.array(pixels, float), np.array(worlds)
+    return family, names[1:-len(kinds)], np.array(features, float), np.array(pixels, float), np.array(worlds)
 
 
 def probabilities(features, weights):
-    """Of trunk, pole, neither."""
+    """Of each kind, neither last."""
     scores = np.column_stack([features @ weights.T, np.zeros(len(features))])
     shares = np.exp(scores - scores.max(1, keepdims=True))
     return shares / shares.sum(1, keepdims=True)
@@ -44,20 +54,20 @@ def mean_log_likelihood(features, counts, weights):
 
 
 def newton_step(features, counts, weights):
-    total, d = counts.sum(1), features.shape[1]
-    p = probabilities(features, weights)[:, :2]
-    gradient = (counts[:, :2] - total[:, None] * p).T @ features / total.sum()
-    hessian = RIDGE * np.eye(2 * d)
-    for a in range(2):
-        for b in range(2):
+    total, (kinds, d) = counts.sum(1), weights.shape
+    p = probabilities(features, weights)[:, :kinds]
+    gradient = (counts[:, :kinds] - total[:, None] * p).T @ features / total.sum()
+    hessian = RIDGE * np.eye(kinds * d)
+    for a in range(kinds):
+        for b in range(kinds):
             curvature = total * p[:, a] * ((a == b) - p[:, b])
             hessian[a * d:(a + 1) * d, b * d:(b + 1) * d] += features.T @ (curvature[:, None] * features) / total.sum()
-    return np.linalg.solve(hessian, gradient.ravel()).reshape(2, d)
+    return np.linalg.solve(hessian, gradient.ravel()).reshape(kinds, d)
 
 
 def fit(features, counts):
-    """Weights (2, d) of trunk and pole."""
-    weights = np.zeros((2, features.shape[1]))
+    """Weights (kinds but neither, d)."""
+    weights = np.zeros((counts.shape[1] - 1, features.shape[1]))
     reached = mean_log_likelihood(features, counts, weights)
     for _ in range(STEPS):
         step, length = newton_step(features, counts, weights), 1.0
@@ -84,22 +94,22 @@ def held_out(features, pixels, worlds, power):
 
 
 def iou(pixels, p):
-    """Of trunks and poles, over the pixels of all pieces."""
+    """Of each kind but neither, over the pixels of all pieces."""
     called = p.argmax(1)
-    right = [pixels[called == k, k].sum() for k in range(2)]
+    right = [pixels[called == k, k].sum() for k in range(pixels.shape[1] - 1)]
     return [r / max(pixels[:, k].sum() + pixels[called == k].sum() - r, 1) for k, r in enumerate(right)]
 
 
-def block(names, weights, facts):
-    lines = ["cylinders:"]
-    for kind, row in zip(KINDS, weights):
+def block(family, names, weights, facts):
+    lines = [f"{family}:"]
+    for kind, row in zip(FAMILIES[family], weights):
         lines += [f"  {kind}:"] + [f"    {name}: {value:.4f}" for name, value in zip(names, row)]
     return "\n".join(lines + [f"  {key}: {value}" for key, value in facts.items()]) + "\n"
 
 
-def replaced(text, found):
+def replaced(text, family, found):
     """The description with the block at its end."""
-    text = re.sub(r"^cylinders:\n(  .*\n)*", "", text.rstrip("\n") + "\n", flags=re.MULTILINE)
+    text = re.sub(rf"^{family}:\n(  .*\n)*", "", text.rstrip("\n") + "\n", flags=re.MULTILINE)
     return text + found
 
 
@@ -109,15 +119,16 @@ def main():
     parser.add_argument("pieces", type=pathlib.Path, nargs="+")
     parser.add_argument("--scans", required=True, help="what they were taken from, for the description")
     arguments = parser.parse_args()
-    names, features, pixels, worlds = read(arguments.pieces)
+    family, names, features, pixels, worlds = read(arguments.pieces)
     figures = {power: iou(pixels, held_out(features, pixels, worlds, power)) for power in POWERS}
-    for power, (trunk, pole) in figures.items():
-        print(f"pixels to the power of {power}: held-out IoU within pieces: trunk {trunk:.3f}, pole {pole:.3f}")
+    for power, ious in figures.items():
+        said = ", ".join(f"{kind} {value:.3f}" for kind, value in zip(FAMILIES[family], ious))
+        print(f"pixels to the power of {power}: held-out IoU within pieces: {said}")
     power = max(figures, key=lambda power: sum(figures[power]))
     facts = {"power": power, "pieces": len(pixels), "scans": arguments.scans,
-             "held_out_iou": "[{:.3f}, {:.3f}]".format(*figures[power])}
-    found = block(names, fit(features, weighted(pixels, power)), facts)
-    arguments.model.write_text(replaced(arguments.model.read_text(), found))
+             "held_out_iou": "[" + ", ".join(f"{value:.3f}" for value in figures[power]) + "]"}
+    found = block(family, names, fit(features, weighted(pixels, power)), facts)
+    arguments.model.write_text(replaced(arguments.model.read_text(), family, found))
     print(found, end="")
 
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,30 +37,35 @@ struct EvaluateOptions {
   bool pieces = false;
 };
 
-/// OUT/pieces.csv.
-class PieceFile {
+/// OUT/cylinders.csv and vehicles.csv.
+class PieceFiles {
  public:
-  PieceFile(const fs::path& file, const objects::ClassTable& table)
-      : file_(file), table_(table), figures_(table) {
-    file_.write(piece_header());
+  PieceFiles(const OutputFolder& out, const objects::ClassTable& table)
+      : table_(table), figures_(table) {
+    for (const segmentation::PieceFamily family : segmentation::kPieceFamilies) {
+      const std::string name = segmentation::info_of(family).name;
+      files_.try_emplace(family, out / (name + ".csv")).first->second.write(piece_header(family));
+    }
   }
   void add(const lidar::Frame& frame, std::span<const std::uint32_t> ids,
            segmentation::Segmentation& stage) {
-    for (const auto& piece : stage.cylinder_pieces(frame.scan)) {
-      file_.write(piece_row(frame.name, piece, ids, figures_, table_));
+    for (const auto& piece : stage.pieces(frame.scan)) {
+      files_.at(piece.family).write(piece_row(frame.name, piece, ids, figures_, table_));
     }
   }
-  void finish() { file_.finish(); }
+  void finish() {
+    for (auto& [family, file] : files_) file.finish();
+  }
 
  private:
-  core::OutputFile file_;
+  std::map<segmentation::PieceFamily, core::OutputFile> files_;
   const objects::ClassTable& table_;
   SegmentationFigures figures_;
 };
 
 /// Segments and judges every labelled scan of the folder. \param pieces  or null.
 void evaluate_scans(const EvaluateOptions& options, segmentation::Segmentation& stage,
-                    Evaluation& evaluation, PieceFile* pieces) {
+                    Evaluation& evaluation, PieceFiles* pieces) {
   const LabelledFolder truth(options.folder);
   const auto source =
       lidar::open_recording(options.folder, lidar::RecordingFormat::kAutomatic, options.metadata);
@@ -91,8 +97,8 @@ Json segmentation_figures(const EvaluateOptions& options, const CommonOptions& c
   const autonomy::Config config = read_configuration(common).autonomy;
   segmentation::Segmentation stage(config.segmentation, config.objects);
   Evaluation evaluation(config.objects);
-  std::optional<PieceFile> pieces;
-  if (options.pieces) pieces.emplace(*out / "pieces.csv", config.objects);
+  std::optional<PieceFiles> pieces;
+  if (options.pieces) pieces.emplace(*out, config.objects);
   evaluate_scans(options, stage, evaluation, pieces ? &*pieces : nullptr);
   if (pieces) pieces->finish();
   const Json figures = evaluation.json();
@@ -179,9 +185,10 @@ void add_evaluate(Commands& commands) {
                  "judge the map and the single windows that saker replay left in this folder by "
                  "FOLDER/vehicles.json")
       ->type_name("RUN");
-  app.add_flag("--pieces", options->pieces,
-               "also OUT/pieces.csv: what tells trunks from poles, by what is labelled "
-               "(scripts/segmentation-fit)");
+  app.add_flag(
+      "--pieces", options->pieces,
+      "also OUT/cylinders.csv and vehicles.csv: what tells pieces apart, by what is labelled "
+      "(scripts/segmentation-fit)");
   app.add_option("--label-sd", options->label_sd_m,
                  "of a labelled length, width and place, m: part of the NEES")
       ->type_name("M")

@@ -6,12 +6,12 @@
 #include "saker/segmentation/segmentation.h"
 #include "tools/saker/evaluate/segmentation_figures.h"
 
-/// Pieces of pixels that may be trunks or poles, as scripts/segmentation-fit reads them. Reads what
-/// Segmentation::cylinder_pieces gives and a person's ids; makes CSV: scan, kPieceFeatures, and the
-/// pixels by what their label says: crowned, bare (cylinders with and without a crown) or neither.
+/// Pieces of pixels that may be one object, as scripts/segmentation-fit reads them, a table a
+/// family. Reads what Segmentation::pieces gives and a person's ids; makes CSV: scan, the family's
+/// features, and the pixels by what their label says: the family's kinds or neither.
 namespace saker::tools {
 
-[[nodiscard]] std::string piece_header();
+[[nodiscard]] std::string piece_header(segmentation::PieceFamily family);
 
 /// Ids that `figures` does not count are in no column.
 [[nodiscard]] std::string piece_row(const std::string& scan,

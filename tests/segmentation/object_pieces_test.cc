@@ -1,4 +1,4 @@
-#include "saker/segmentation/cylinder_pieces.h"
+#include "saker/segmentation/object_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -13,36 +13,47 @@ namespace {
 
 using testing::kPitch, testing::kPole, testing::kTrunk;
 
-int index_of(const std::string& feature) {
-  const auto found = std::find(kPieceFeatures.begin(), kPieceFeatures.end(), feature);
-  return static_cast<int>(found - kPieceFeatures.begin());
+Eigen::Index index_of(PieceFamily family, const std::string& feature) {
+  const auto names = info_of(family).features;
+  return std::find(names.begin(), names.end(), feature) - names.begin();
+}
+
+PieceModel nothing(PieceFamily family) {
+  const auto features = static_cast<Eigen::Index>(info_of(family).features.size());
+  return {std::vector<PieceFeatures>(info_of(family).kinds.size(), PieceFeatures::Zero(features))};
+}
+
+float& weight(PieceModel& model, std::size_t kind, const std::string& feature) {
+  const bool vehicles = model.kinds.size() == 1;
+  return model
+      .kinds[kind][index_of(vehicles ? PieceFamily::vehicles : PieceFamily::cylinders, feature)];
 }
 
 /// Two to one to one, whatever the piece is like.
 PieceModel constant() {
-  PieceModel model;
-  model.crowned[index_of("one")] = std::log(2.0F);
+  PieceModel model = nothing(PieceFamily::cylinders);
+  weight(model, 0, "one") = std::log(2.0F);
   return model;
 }
 
 /// As likely a trunk as a pole at 0.2 m; hardly ever neither.
 PieceModel by_width() {
-  PieceModel model;
-  model.crowned[index_of("width")] = 3, model.bare[index_of("width")] = -3;
-  model.crowned[index_of("one")] = 4 - 3 * std::log(0.2F);
-  model.bare[index_of("one")] = 4 + 3 * std::log(0.2F);
+  PieceModel model = nothing(PieceFamily::cylinders);
+  weight(model, 0, "width") = 3, weight(model, 1, "width") = -3;
+  weight(model, 0, "one") = 4 - 3 * std::log(0.2F);
+  weight(model, 1, "one") = 4 + 3 * std::log(0.2F);
   return model;
 }
 
 struct Drawing : testing::Cylinders {
   void decide(const std::optional<PieceModel>& model) {
-    CylinderPieces(table, model).decide(image, up, pixels);
+    ObjectPieces(PieceFamily::cylinders, table, model).decide(image, up, pixels);
   }
   [[nodiscard]] float trunk(std::size_t i) const { return pixels.at(i)[kTrunk]; }
   [[nodiscard]] float pole(std::size_t i) const { return pixels.at(i)[kPole]; }
 };
 
-TEST(CylinderPieces, GiveEveryPixelTheModelsProbabilities) {
+TEST(ObjectPieces, GiveEveryPixelTheModelsProbabilities) {
   Drawing picture;
   const auto piece = picture.draw(0.5F, 8, 0.35F, 2, 0.1F, 0.8F);
   for (std::size_t k = 0; k < piece.size(); k += 3) {
@@ -56,7 +67,7 @@ TEST(CylinderPieces, GiveEveryPixelTheModelsProbabilities) {
   }
 }
 
-TEST(CylinderPieces, LeaveTheOtherClassesInTheirRatio) {
+TEST(ObjectPieces, LeaveTheOtherClassesInTheirRatio) {
   Drawing picture;
   const auto piece = picture.draw(0.5F, 8, 0.35F, 2, 0.3F, 0.3F);
   for (const std::int32_t i : piece) picture.at(i)[0] = 0.1F, picture.at(i)[1] = 0.3F;
@@ -64,16 +75,16 @@ TEST(CylinderPieces, LeaveTheOtherClassesInTheirRatio) {
   EXPECT_NEAR(picture.pixels.at(piece.front())[1], 0.75F * 0.25F, 1e-5F);
 }
 
-TEST(CylinderPieces, ThatAreNeitherAreClassZeroWhereTheNetworkSawNothingElse) {
+TEST(ObjectPieces, ThatAreNeitherAreClassZeroWhereTheNetworkSawNothingElse) {
   Drawing picture;
   const auto piece = picture.draw(0.5F, 8, 0.35F, 2, 0.5F, 0.5F);
-  PieceModel never;
-  never.crowned[index_of("one")] = never.bare[index_of("one")] = -20;
+  PieceModel never = nothing(PieceFamily::cylinders);
+  weight(never, 0, "one") = weight(never, 1, "one") = -20;
   picture.decide(never);
   EXPECT_NEAR(picture.pixels.at(piece.front())[0], 1, 1e-5F);
 }
 
-TEST(CylinderPieces, WithoutAModelStay) {
+TEST(ObjectPieces, WithoutAModelStay) {
   Drawing picture;
   picture.draw(0.5F, 8, 0.35F, 2, 0.1F, 0.8F);
   const std::vector<float> before = picture.pixels.values;
@@ -81,7 +92,7 @@ TEST(CylinderPieces, WithoutAModelStay) {
   EXPECT_EQ(picture.pixels.values, before);
 }
 
-TEST(CylinderPieces, ThatAreLessLikelyThanNotStay) {
+TEST(ObjectPieces, ThatAreLessLikelyThanNotStay) {
   Drawing picture;
   picture.draw(0.5F, 8, 0.35F, 2, 0.2F, 0.2F);
   const std::vector<float> before = picture.pixels.values;
@@ -89,7 +100,7 @@ TEST(CylinderPieces, ThatAreLessLikelyThanNotStay) {
   EXPECT_EQ(picture.pixels.values, before);
 }
 
-TEST(CylinderPieces, ThatStandApartDecideApart) {
+TEST(ObjectPieces, ThatStandApartDecideApart) {
   Drawing picture;
   const auto trunk = picture.draw(0.5F, 8, 0.4F, 2, 0.45F, 0.45F);
   const auto pole = picture.draw(0.58F, 8, 0.1F, 2, 0.45F, 0.45F);
@@ -98,7 +109,7 @@ TEST(CylinderPieces, ThatStandApartDecideApart) {
   EXPECT_GT(picture.pole(pole.front()), 0.8F);
 }
 
-TEST(CylinderPieces, AreNotCutByTheSeamOfTheImage) {
+TEST(ObjectPieces, AreNotCutByTheSeamOfTheImage) {
   Drawing seam, beside;
   const auto cut = seam.draw(0, 8, 0.3F, 2, 0.45F, 0.45F);
   const auto whole = beside.draw(64 * kPitch, 8, 0.3F, 2, 0.45F, 0.45F);
@@ -108,7 +119,7 @@ TEST(CylinderPieces, AreNotCutByTheSeamOfTheImage) {
   EXPECT_NEAR(seam.trunk(cut.front()), beside.trunk(whole.front()), 1e-3F);
 }
 
-TEST(CylinderPieces, AreTheSameForATiltedSensor) {
+TEST(ObjectPieces, AreTheSameForATiltedSensor) {
   Drawing level, tilted;
   const auto piece = level.draw(0.5F, 8, 0.3F, 1.6F, 0.45F, 0.45F);
   tilted.draw(0.5F, 8, 0.3F, 1.6F, 0.45F, 0.45F);
@@ -121,13 +132,37 @@ TEST(CylinderPieces, AreTheSameForATiltedSensor) {
   EXPECT_NEAR(level.trunk(piece.front()), tilted.trunk(piece.front()), 1e-3F);
 }
 
-TEST(CylinderPieces, LeaveATableWithoutCylindersAlone) {
+TEST(ObjectPieces, LeaveATableWithoutCylindersAlone) {
   Drawing picture;
   for (const int k : {kTrunk, kPole}) picture.table.classes[k].shape = objects::Shape::none;
   picture.draw(80 * kPitch, 30, 0.15F, 0.5F, 0.5F, 0.4F);
   const std::vector<float> before = picture.pixels.values;
   picture.decide(constant());
   EXPECT_EQ(picture.pixels.values, before);
+}
+
+/// A vehicle's surface, of which the network is so sure.
+std::vector<std::size_t> draw_vehicle(testing::Picture& picture, float azimuth, float distance,
+                                      float width, float height, float probability) {
+  const auto piece = picture.draw(azimuth, distance, width, height);
+  for (const std::size_t i : piece) {
+    picture.at(i)[testing::kVehicle] = probability;
+    picture.at(i)[0] = 1 - probability;
+  }
+  return piece;
+}
+
+TEST(ObjectPieces, AWallThatPixelsCallAVehicleIsNone) {
+  testing::Picture picture;
+  const auto car = draw_vehicle(picture, 0.5F, 8, 1.8F, 1.5F, 0.8F);
+  const auto wall = draw_vehicle(picture, 2.5F, 8, 12, 1.5F, 0.8F);
+  PieceModel short_ones = nothing(PieceFamily::vehicles);
+  weight(short_ones, 0, "length") = -5;
+  weight(short_ones, 0, "one") = 5 * std::log(6.0F);
+  ObjectPieces(PieceFamily::vehicles, picture.table, short_ones)
+      .decide(picture.image, picture.up, picture.pixels);
+  for (const std::size_t i : car) EXPECT_GT(picture.at(i)[testing::kVehicle], 0.9F);
+  for (const std::size_t i : wall) EXPECT_LT(picture.at(i)[testing::kVehicle], 0.2F);
 }
 
 }  // namespace

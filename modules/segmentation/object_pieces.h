@@ -10,25 +10,26 @@
 
 namespace saker::segmentation {
 
-/// Lets the pixels of one trunk or pole decide together what it is. Reads the image and the
-/// network's probabilities; changes them where cylinders are likely.
+/// Lets the pixels of one object decide together what it is. Reads the image and the network's
+/// probabilities; changes them where the family's kinds are likely.
 ///
-/// A piece is what hangs together of the pixels that are more likely a cylinder than not. It is a
-/// part of one object: trunk (a class with a crown), pole (one without) or neither. With the
+/// A piece is what hangs together of the pixels that are more likely of the family than not. It is
+/// a part of one object: of one of the kinds (trunk or pole; vehicle) or of neither. With the
 /// features f of the piece (piece_features.h) and the weights w of the network's description
 ///
-///   P(kind) = exp(w_kind · f) / (exp(w_trunk · f) + exp(w_pole · f) + 1),   P(neither) the rest,
+///   P(kind) = exp(w_kind · f) / (Σ exp(w_k · f) + 1),   P(neither) the rest,
 ///
 /// a multinomial logistic regression, fitted to simulated worlds (scripts/segmentation-fit). The
-/// pixel's probability of trunks becomes P(trunk), that of poles P(pole), and the other classes
-/// share P(neither) as the network has it. Frame: lidar. Cost: 1 ms for 64×1024; allocates nothing
-/// after the first scans.
-class CylinderPieces {
+/// pixel's probability of each kind becomes the piece's, and the other classes share P(neither) as
+/// the network has it. Frame: lidar. Cost: 1 ms for 64×1024; allocates nothing after the first
+/// scans.
+class ObjectPieces {
  public:
   using Piece = std::vector<std::int32_t>;  ///< pixels
 
   /// Without a model the network's probabilities stay.
-  CylinderPieces(const objects::ClassTable& table, const std::optional<PieceModel>& model);
+  ObjectPieces(PieceFamily family, const objects::ClassTable& table,
+               const std::optional<PieceModel>& model);
 
   /// \param up  unit, lidar frame
   void decide(const RangeImage& image, const Eigen::Vector3f& up, PixelProbabilities& pixels);
@@ -37,10 +38,10 @@ class CylinderPieces {
   template <class Take>
   void for_each(const RangeImage& image, const Eigen::Vector3f& up,
                 const PixelProbabilities& pixels, const Take& take) {
-    if (crowned_.empty() || bare_.empty() || neither_.empty()) return;
+    if (!all_kinds_) return;
     find_members(image, pixels);
     pieces_.for_each(image, up, member_, [&](const Piece& piece) {
-      take(piece, meter_.measure(piece, image, up, crowned_, bare_, pixels));
+      take(piece, meter_.measure(piece, image, up, kinds_, pixels));
     });
   }
 
@@ -48,7 +49,9 @@ class CylinderPieces {
   void find_members(const RangeImage& image, const PixelProbabilities& pixels);
   void share(const Piece& piece, const PieceFeatures& features, PixelProbabilities& pixels) const;
 
-  std::vector<int> crowned_, bare_, neither_;  ///< classes of trunks, of poles and the others
+  std::vector<std::vector<int>> kinds_;  ///< classes of each
+  std::vector<int> neither_;
+  bool all_kinds_ = false;  ///< the table has each of them, and others
   std::optional<PieceModel> model_;
   Pieces pieces_;
   PieceMeter meter_;
