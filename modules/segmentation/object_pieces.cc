@@ -8,11 +8,7 @@ namespace {
 
 constexpr float kLikely = 0.5F;  // of all kinds together
 
-PieceReach reach_of(PieceFamily family) {
-  if (family == PieceFamily::cylinders)
-    return {.rows = 3, .columns = 2, .across = 0.4F, .rise = 1.0F};
-  return {.rows = 3, .columns = 3, .across = 0.8F, .rise = 1.0F};
-}
+constexpr PieceReach kReach{.rows = 3, .columns = 2, .across = 0.4F, .rise = 1.0F};  // of cylinders
 
 /// Gives the classes so much together, in the ratios that they have.
 void give(const std::vector<int>& classes, float probability, float* pixel) {
@@ -29,9 +25,10 @@ void give(const std::vector<int>& classes, float probability, float* pixel) {
 
 ObjectPieces::ObjectPieces(PieceFamily family, const objects::ClassTable& table,
                            const std::optional<PieceModel>& model)
-    : kinds_(info_of(family).kinds.size()),
+    : family_(family),
+      kinds_(info_of(family).kinds.size()),
       model_(model),
-      pieces_(reach_of(family)),
+      pieces_(kReach),
       meter_(family) {
   for (int k = 0; k < table.size(); ++k) {
     const int kind = kind_of(family, table.classes[k]);

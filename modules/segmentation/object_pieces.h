@@ -40,20 +40,26 @@ class ObjectPieces {
                 const PixelProbabilities& pixels, const Take& take) {
     if (!all_kinds_) return;
     find_members(image, pixels);
-    pieces_.for_each(image, up, member_, [&](const Piece& piece) {
+    const auto measured = [&](const Piece& piece) {
       take(piece, meter_.measure(piece, image, up, kinds_, pixels));
-    });
+    };
+    if (family_ == PieceFamily::cylinders)
+      pieces_.for_each(image, up, member_, measured);
+    else
+      plan_pieces_.for_each(image, up, member_, measured);
   }
 
  private:
   void find_members(const RangeImage& image, const PixelProbabilities& pixels);
   void share(const Piece& piece, const PieceFeatures& features, PixelProbabilities& pixels) const;
 
+  PieceFamily family_;
   std::vector<std::vector<int>> kinds_;  ///< classes of each
   std::vector<int> neither_;
   bool all_kinds_ = false;  ///< the table has each of them, and others
   std::optional<PieceModel> model_;
   Pieces pieces_;
+  PlanPieces plan_pieces_;
   PieceMeter meter_;
   std::vector<std::uint8_t> member_;
 };
