@@ -19,7 +19,8 @@ constexpr std::array kVehicleFeatures = {
 static_assert(kVehicleFeatures.size() == kMostPieceFeatures);
 
 constexpr float kLeastProbability = 1e-3F;  // of single pixels: nothing is surer
-constexpr float kThin = 0.1F;               // m, added to extents of vehicles: a wall has some
+constexpr float kSurest = 0.998F;  // of a vehicle's pixels: near ones are surer, whatever it is
+constexpr float kThin = 0.1F;      // m, added to extents of vehicles: a wall has some
 
 /// Linear between the order statistics; reorders the values.
 float value_at(std::vector<float>& values, float percentile) {
@@ -120,7 +121,7 @@ PieceFeatures PieceMeter::of_vehicle(const std::vector<std::int32_t>& piece,
   constexpr float kPercentile = 0.05F;  // antennas, and what was taken for a vehicle beside one
   float vehicle = 0;
   for (const std::int32_t i : piece) {
-    const float p = sum_of(vehicles, pixels.at(static_cast<std::size_t>(i)));
+    const float p = std::min(sum_of(vehicles, pixels.at(static_cast<std::size_t>(i))), kSurest);
     vehicle += log_ratio(p, 1 - p);
   }
   const auto count = static_cast<float>(piece.size());
