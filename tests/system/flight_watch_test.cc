@@ -30,6 +30,10 @@ class Watched : public testing::Test {
   void fly(double from_s, double to_s) {
     for (double t_s = from_s; t_s < to_s; t_s += 0.01) step(t_s);
   }
+  void collide(double t_s) {
+    ++truth.collisions;
+    step(t_s);
+  }
   void say(double t_s, MissionPhase to, autonomy::Cause cause, const std::string& text) {
     watch.on_event({kBegin + from_seconds(t_s), MissionPhase::tour, to, cause, text});
   }
@@ -55,8 +59,7 @@ TEST_F(Watched, AnEvenFlightBreaksNothing) {
 TEST_F(Watched, ACollisionIsABreach) {
   truth.velocity = {1, 0, 0};
   fly(0, 1);
-  truth.collisions = 1;
-  step(1);
+  collide(1);
   EXPECT_TRUE(broken(Invariant::no_collision));
 }
 
@@ -64,8 +67,7 @@ TEST_F(Watched, ALorryThatDrivesIntoAVehicleAtRestIsUnavoidable) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
   truth.velocity = {0.1, 0, 0};
   fly(0, 4);
-  truth.collisions = 1;
-  step(4);
+  collide(4);
   EXPECT_FALSE(broken(Invariant::no_collision));
 }
 
@@ -74,28 +76,24 @@ TEST_F(Watched, ALorryThatPushesAVehicleAwayCameToIt) {
   fly(0, 3.8);
   truth.velocity = {4, 0, -7};
   fly(3.8, 4);
-  truth.collisions = 1;
-  step(4);
+  collide(4);
   EXPECT_FALSE(broken(Invariant::no_collision));
 }
 
 TEST_F(Watched, WhatAVehicleHitsAfterALorryDroveIntoItCountsNoMore) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
   fly(0, 4);
-  truth.collisions = 1;
-  step(4);
+  collide(4);
   truth.velocity = {2, 0, 0};
   fly(4, 6);
-  truth.collisions = 2;
-  step(6);
+  collide(6);
   EXPECT_FALSE(broken(Invariant::no_collision));
 }
 
 TEST_F(Watched, ALorryThatPassedLongAgoExcusesNothing) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
   fly(0, 9);
-  truth.collisions = 1;
-  step(9);
+  collide(9);
   EXPECT_TRUE(broken(Invariant::no_collision));
 }
 
@@ -103,8 +101,7 @@ TEST_F(Watched, AVehicleThatFliesIntoALorryCouldHaveBraked) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
   truth.velocity = {1.5, 0, 0};
   fly(0, 4);
-  truth.collisions = 1;
-  step(4);
+  collide(4);
   EXPECT_TRUE(broken(Invariant::no_collision));
 }
 
@@ -112,8 +109,7 @@ TEST_F(Watched, AWallThatStandsThereTooLateIsUnavoidable) {
   schedule = {fault(FaultKind::wall, 3, 1.5)};
   truth.velocity = {2.5, 0, 0};
   fly(0, 3.5);
-  truth.collisions = 1;
-  step(3.5);
+  collide(3.5);
   EXPECT_FALSE(broken(Invariant::no_collision));
 }
 
@@ -121,8 +117,7 @@ TEST_F(Watched, AWallFarAheadIsNot) {
   schedule = {fault(FaultKind::wall, 3, 8)};
   truth.velocity = {2.5, 0, 0};
   fly(0, 6);
-  truth.collisions = 1;
-  step(6);
+  collide(6);
   EXPECT_TRUE(broken(Invariant::no_collision));
 }
 

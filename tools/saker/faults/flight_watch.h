@@ -41,11 +41,11 @@ struct Breach {
 /// for a second, is a breach while the status is ok.
 ///
 /// A collision is unavoidable where something came to a vehicle that moved by less than 0.5 m/s a
-/// second before: what it hits after that, with the thing still in or around it, counts no more;
-/// where a thing appeared within the distance that it takes to see it, think and brake; where the
-/// vehicle came down without a pose, which the flight controller does where it is, at less than
-/// 0.8 m/s over ground, or by an order to abort, which looks for no place; and where a gust of more
-/// than 5 m/s blew within the last second.
+/// second before, while that passes: what it hits after that counts no more, for the simulator
+/// lets it fly on inside a lorry; where a thing appeared within the distance that it takes to see
+/// it, think and brake; where the vehicle came down without a pose, which the flight controller
+/// does where it is, at less than 0.8 m/s over ground, or by an order to abort, which looks for no
+/// place; and where a gust of more than 5 m/s blew within the last second.
 class FlightWatch : public autonomy::MissionObserver {
  public:
   /// `schedule` has to outlive this. \param begin of the mission
