@@ -92,7 +92,15 @@ TEST(ObjectPieces, WithoutAModelStay) {
   EXPECT_EQ(picture.pixels.values, before);
 }
 
-TEST(ObjectPieces, ThatAreLessLikelyThanNotStay) {
+TEST(ObjectPieces, ThatAreLikelierThanAnyOtherClassAreDecidedOn) {
+  Drawing picture;
+  const auto piece = picture.draw(0.5F, 8, 0.35F, 2, 0.2F, 0.2F);
+  for (const std::int32_t i : piece) picture.at(i)[0] = picture.at(i)[1] = 0.3F;
+  picture.decide(constant());
+  EXPECT_NEAR(picture.trunk(piece.front()), 0.5F, 1e-5F);
+}
+
+TEST(ObjectPieces, ThatAreLessLikelyThanAnotherClassStay) {
   Drawing picture;
   picture.draw(0.5F, 8, 0.35F, 2, 0.2F, 0.2F);
   const std::vector<float> before = picture.pixels.values;
