@@ -22,7 +22,7 @@ struct LandmarkConfig {
   double still_m = 0.4;
   double class_clamp = 0.05;
   double clutter_probability = 0.6;
-  double clutter_points = 300;
+  double clutter_points = 100;
   double missed_log_odds = 0.5;
   double least_log_odds = 6;
   int two_windows = 3;
