@@ -90,11 +90,10 @@ OdometryEstimate Odometry::register_scan(const lidar::Scan& scan,
   auto from_there = from_found(scan);
   auto [prediction, found] = from_there ? std::move(*from_there) : most_likely(scan);
   OdometryEstimate estimate = report(scan, prediction, found);
-  remember(prediction, found);
+  const bool restarts = remember(prediction, found);
   stamp_ = estimate.stamp;
   T_odom_stamp_ = estimate.T_odom_lidar;
-  if (registered(estimate.status) || misfits_ >= config_.restart_after)
-    add_to_map(scan, found.sweep);
+  if (registered(estimate.status) || restarts) add_to_map(scan, found.sweep);
   return estimate;
 }
 
@@ -233,7 +232,7 @@ bool Odometry::held(const OdometryEstimate& estimate) {
   return solver.eigenvalues()[2] <= config_.most_drift_m * config_.most_drift_m;
 }
 
-void Odometry::remember(const Prediction& prediction, const Fit& fit) {
+bool Odometry::remember(const Prediction& prediction, const Fit& fit) {
   if (fit.reason == OdometryReason::none) {
     gate_.learn(prediction.prior.T_odom_lidar.inverse() * fit.registration.T_odom_lidar);
     motion_.accept(prediction, fit.registration.T_odom_lidar, fit.registration.covariance);
@@ -241,7 +240,7 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
     usual_.on_planes = keep * usual_.on_planes + (1 - keep) * fit.share.on_planes;
     usual_.on_established = keep * usual_.on_established + (1 - keep) * fit.share.on_established;
     misfits_ = 0;
-    return;
+    return false;
   }
   if (fit.found) {
     found_ = motion_;
@@ -249,13 +248,15 @@ void Odometry::remember(const Prediction& prediction, const Fit& fit) {
   }
   motion_.coast(prediction);
   misfits_ += fit.reason == OdometryReason::no_fit || fit.reason == OdometryReason::ambiguous;
-  if (misfits_ < config_.restart_after) return;
-  map_.clear();  // lost: the scan begins a new map where it is thought to be
+  // Where the place is known, something else stands in sight: it may move, and the map with it.
+  if (misfits_ < config_.restart_after || !lost(prediction)) return false;
+  map_.clear();  // the scan begins a new one where it is thought to be
   found_.reset();
   drifts_.push_back(
       {stamp_, place_in_odom(prediction.prior.T_odom_lidar, prediction.prior.covariance)});
   gate_.reset();
   usual_ = {};
+  return true;
 }
 
 void Odometry::keep_first(const lidar::Scan& scan) {

@@ -67,7 +67,7 @@ struct OdometryConfig {
             "how often far and old voxels are dropped");
     v.field("restart_after", restart_after, {1, 1000}, "",
             "scans in a row that do not fit one place of the map, until a new one begins at the "
-            "prediction");
+            "prediction, once that leaves more open than is searched around it");
     v.field(
         "drift_share", drift_share, {0, 2}, "",
         "of a registration's variance that stays as drift: a scan's noise goes with the next "
@@ -231,7 +231,8 @@ class Odometry {
   /// Deskews the first scan and this one by the motion between them, in turns.
   void refine_first(const lidar::Scan& scan);
   void redo_first(const Prediction& prediction, const SE3& T_odom_lidar);
-  void remember(const Prediction& prediction, const Fit& fit);
+  /// Whether the scan begins a new map.
+  [[nodiscard]] bool remember(const Prediction& prediction, const Fit& fit);
   void add_to_map(const lidar::Scan& scan, const Sweep& sweep);
   /// The scan's chosen points, deskewed, in scratch_.
   void deskew(const lidar::Scan& scan, const Sweep& sweep, std::span<const std::uint32_t> chosen);

@@ -55,8 +55,10 @@ std::pair<Prediction, Odometry::Fit> Odometry::most_likely(const lidar::Scan& sc
   if (!other) return {prediction, std::move(found)};
   Fit found_otherwise = fit(scan, *other, Trust::none);
   if (prediction.inertial) found_otherwise.found.reset();  // it knows where the scan was taken
-  const bool proof_follows = found.found && found_otherwise.reason != OdometryReason::none;
-  if (proof_follows || !more_likely(found_otherwise, *other, found, prediction))
+  // What fits nowhere says nothing against the prediction.
+  const bool may_be =
+      found_otherwise.reason == OdometryReason::none || (found_otherwise.found && !found.found);
+  if (!may_be || !more_likely(found_otherwise, *other, found, prediction))
     return {prediction, std::move(found)};
   return {*other, std::move(found_otherwise)};
 }

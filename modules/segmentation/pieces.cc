@@ -29,6 +29,43 @@ void Pieces::grow(std::int32_t seed, const RangeImage& image, const Eigen::Vecto
   }
 }
 
+void PlanPieces::fill(const RangeImage& image, const Eigen::Vector3f& up,
+                      std::vector<std::uint8_t>& member) {
+  first_.assign(kSide * kSide, kNone);
+  next_.resize(image.size());
+  filled_.clear();
+  const Eigen::Vector3f east = up.unitOrthogonal(), north = up.cross(east);
+  for (std::size_t i = 0; i < member.size(); ++i) {
+    if (member[i] == 0) continue;
+    member[i] = 0;
+    const Eigen::Vector2f flat(east.dot(image.points[i]), north.dot(image.points[i]));
+    if (flat.cwiseAbs().maxCoeff() >= kReach_m) continue;
+    const Eigen::Vector2i at = ((flat.array() + kReach_m) / kCell_m).cast<int>() + 1;
+    const std::int32_t cell = std::min(at.x(), kSide - 2) * kSide + std::min(at.y(), kSide - 2);
+    if (first_[cell] == kNone) filled_.push_back(cell);
+    next_[i] = first_[cell];
+    first_[cell] = static_cast<std::int32_t>(i);
+  }
+}
+
+void PlanPieces::grow(std::int32_t seed) {
+  piece_.clear();
+  const auto take = [&](std::int32_t cell) {
+    if (first_[cell] == kNone) return;
+    for (std::int32_t i = first_[cell]; i != kNone; i = next_[i]) piece_.push_back(i);
+    first_[cell] = kNone;
+    open_.push_back(cell);
+  };
+  open_.clear();
+  take(seed);
+  while (!open_.empty()) {
+    const std::int32_t cell = open_.back();
+    open_.pop_back();
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy) take(cell + dx * kSide + dy);
+  }
+}
+
 float height_of(const std::vector<std::int32_t>& piece, const RangeImage& image,
                 const Eigen::Vector3f& up) {
   float lowest = up.dot(image.points[piece.front()]), highest = lowest;
@@ -44,15 +81,6 @@ float sum_of(const std::vector<int>& classes, const float* pixel) {
   float sum = 0;
   for (const int k : classes) sum += pixel[k];
   return sum;
-}
-
-void refuse(const std::vector<std::int32_t>& piece, const std::vector<int>& classes,
-            PixelProbabilities& pixels) {
-  for (const std::int32_t i : piece) {
-    float* pixel = &pixels.values[static_cast<std::size_t>(i) * pixels.classes];
-    pixel[0] += sum_of(classes, pixel);
-    for (const int k : classes) pixel[k] = 0;
-  }
 }
 
 }  // namespace saker::segmentation

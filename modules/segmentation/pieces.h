@@ -43,15 +43,45 @@ class Pieces {
   std::vector<std::int32_t> piece_;
 };
 
+/// What hangs together seen from above, of some pixels of an image: cells of a horizontal grid that
+/// touch. Larger than a piece of `Pieces`: what hides some of an object's pixels does not part it.
+/// Keeps its memory between calls.
+class PlanPieces {
+ public:
+  static constexpr float kReach_m = 60;  ///< pixels farther away are in no piece
+  static constexpr float kCell_m = 0.5F;
+
+  /// As Pieces::for_each.
+  template <class Take>
+  void for_each(const RangeImage& image, const Eigen::Vector3f& up,
+                std::vector<std::uint8_t>& member, const Take& take) {
+    fill(image, up, member);
+    for (const std::int32_t cell : filled_) {
+      if (first_[cell] == kNone) continue;
+      grow(cell);
+      take(piece_);
+    }
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  static constexpr int kSide = static_cast<int>(2 * kReach_m / kCell_m) + 2;  ///< with a margin
+
+  void fill(const RangeImage& image, const Eigen::Vector3f& up, std::vector<std::uint8_t>& member);
+  void grow(std::int32_t cell);
+
+  std::vector<std::int32_t> first_;   ///< pixel of each cell; kNone: empty, or taken
+  std::vector<std::int32_t> next_;    ///< pixel of the same cell, of each pixel
+  std::vector<std::int32_t> filled_;  ///< cells
+  std::vector<std::int32_t> open_;
+  std::vector<std::int32_t> piece_;
+};
+
 /// Of the highest pixel over the lowest, m.
 [[nodiscard]] float height_of(const std::vector<std::int32_t>& piece, const RangeImage& image,
                               const Eigen::Vector3f& up);
 
 /// The probability of some classes together at a pixel.
 [[nodiscard]] float sum_of(const std::vector<int>& classes, const float* pixel);
-
-/// Gives the probability of some classes at the piece's pixels to class 0.
-void refuse(const std::vector<std::int32_t>& piece, const std::vector<int>& classes,
-            PixelProbabilities& pixels);
 
 }  // namespace saker::segmentation

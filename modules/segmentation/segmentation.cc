@@ -19,9 +19,16 @@ std::string read_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+fs::path weights_of(const SegmentationConfig& config) {
+  return core::find_in_configs(config.model, "segmentation.model");
+}
+
+fs::path description_of(const SegmentationConfig& config) {
+  return weights_of(config).replace_extension(".yaml");
+}
+
 Network load(const SegmentationConfig& config, const objects::ClassTable& table) {
-  const fs::path file = core::find_in_configs(config.model, "segmentation.model");
-  const fs::path description = fs::path(file).replace_extension(".yaml");
+  const fs::path file = weights_of(config), description = description_of(config);
   const Sidecar sidecar = read_sidecar(description);
   const std::string weights = read_bytes(file);
   return Network(weights, file, kChannelCount, check_sidecar(sidecar, description, table, weights));
@@ -34,7 +41,8 @@ Segmentation::Segmentation(const SegmentationConfig& config, const objects::Clas
     : config_(core::checked(config, "segmentation")),
       network_(load(config_, table)),
       features_(up),
-      cylinder_pieces_(table) {}
+      cylinders_(PieceFamily::cylinders, table, read_sidecar(description_of(config_)).cylinders),
+      vehicles_(PieceFamily::vehicles, table, read_sidecar(description_of(config_)).vehicles) {}
 
 /// The scan itself where its frame is the sensor's, else a copy in that.
 const lidar::Scan& Segmentation::in_sensor_frame(const lidar::Scan& scan) {
@@ -69,8 +77,26 @@ lidar::Labels Segmentation::segment(const lidar::Scan& given) {
   if (image_.size() == 0)
     return {std::vector<std::uint8_t>(scan.size(), 0), std::vector<float>(scan.size(), 0.0F)};
   PixelProbabilities& pixels = probabilities();
-  cylinder_pieces_.decide(image_, features_.up(), pixels);
+  cylinders_.decide(image_, features_.up(), pixels);
+  vehicles_.decide(image_, features_.up(), pixels);
   return back_projection_.label(scan, image_, pixels);
+}
+
+std::vector<Segmentation::SeenPiece> Segmentation::pieces(const lidar::Scan& given) {
+  std::vector<SeenPiece> seen;
+  project(in_sensor_frame(given), image_);
+  if (image_.size() == 0) return seen;
+  const PixelProbabilities& pixels = probabilities();
+  for (const PieceFamily family : kPieceFamilies) {
+    ObjectPieces& pieces = family == PieceFamily::cylinders ? cylinders_ : vehicles_;
+    pieces.for_each(image_, features_.up(), pixels,
+                    [&](const ObjectPieces::Piece& piece, const PieceFeatures& features) {
+                      seen.push_back({family, features, {}});
+                      for (const std::int32_t i : piece)
+                        seen.back().points.push_back(image_.point[i]);
+                    });
+  }
+  return seen;
 }
 
 }  // namespace saker::segmentation

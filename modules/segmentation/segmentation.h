@@ -6,9 +6,9 @@
 #include "saker/lidar/scan.h"
 #include "saker/objects/class_table.h"
 #include "saker/segmentation/back_projection.h"
-#include "saker/segmentation/cylinder_pieces.h"
 #include "saker/segmentation/features.h"
 #include "saker/segmentation/network.h"
+#include "saker/segmentation/object_pieces.h"
 #include "saker/segmentation/range_image.h"
 
 namespace saker::segmentation {
@@ -36,7 +36,7 @@ struct SegmentationConfig {
 /// geometry per pixel (features.h), a small U-Net after RangeNet++ with the encoder and decoder cut
 /// down, as the paper's sec. IV-A does (network.h; trained by tools/training on simulated scans
 /// only), which sees the image and its mirror image, one decision for the pixels of an object
-/// (cylinder_pieces.h), back to the points (back_projection.h). A scan without finite points is all
+/// (object_pieces.h), back to the points (back_projection.h). A scan without finite points is all
 /// `other` with probability 0. Cost: docs/real.md. One thread, one instance a thread; the same scan
 /// gives the same bytes.
 class Segmentation {
@@ -49,6 +49,15 @@ class Segmentation {
   /// The classes are indices into the table.
   [[nodiscard]] lidar::Labels segment(const lidar::Scan& scan);
 
+  /// A piece of the scan that may be of the family.
+  struct SeenPiece {
+    PieceFamily family;
+    PieceFeatures features;
+    std::vector<std::int32_t> points;  ///< of the scan, one a pixel
+  };
+  /// Those that segment() decides on: for the fit of how it does.
+  [[nodiscard]] std::vector<SeenPiece> pieces(const lidar::Scan& scan);
+
  private:
   [[nodiscard]] const lidar::Scan& in_sensor_frame(const lidar::Scan& scan);
   [[nodiscard]] PixelProbabilities& probabilities();
@@ -59,7 +68,7 @@ class Segmentation {
   RangeImage image_;
   Features features_;
   PixelProbabilities pixels_;
-  CylinderPieces cylinder_pieces_;
+  ObjectPieces cylinders_, vehicles_;
   BackProjection back_projection_;
 };
 

@@ -3,6 +3,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "saker/core/error.h"
 #include "saker/core/sha256.h"
@@ -33,6 +35,33 @@ void expect_same(const std::vector<std::string>& found, const std::vector<std::s
   throw Error(file.string() + ": " + what + " " + joined(found) + ", expected " + joined(expected));
 }
 
+/// Weights of one kind, in the order of the family's features.
+PieceFeatures read_weights(const YAML::Node& block, const PieceFamilyInfo& family,
+                           const std::string& kind, const std::filesystem::path& file) {
+  const auto weights = read_key<std::map<std::string, float>>(block, kind, file);
+  const std::string where = file.string() + ": " + family.name + ", " + kind + ": ";
+  PieceFeatures read(static_cast<Eigen::Index>(family.features.size()));
+  for (std::size_t k = 0; k < family.features.size(); ++k) {
+    const auto found = weights.find(family.features[k]);
+    if (found == weights.end() || !std::isfinite(found->second))
+      throw Error(where + "expected a number for " + family.features[k]);
+    read[static_cast<Eigen::Index>(k)] = found->second;
+  }
+  if (weights.size() == family.features.size()) return read;
+  throw Error(where + std::to_string(weights.size()) + " weights, expected " +
+              std::to_string(family.features.size()));
+}
+
+std::optional<PieceModel> read_pieces(const YAML::Node& root, PieceFamily family,
+                                      const std::filesystem::path& file) {
+  const PieceFamilyInfo& info = info_of(family);
+  const YAML::Node block = root[info.name];
+  if (!block) return std::nullopt;
+  PieceModel model;
+  for (const char* kind : info.kinds) model.kinds.push_back(read_weights(block, info, kind, file));
+  return model;
+}
+
 }  // namespace
 
 Sidecar read_sidecar(const std::filesystem::path& file) {
@@ -51,6 +80,8 @@ Sidecar read_sidecar(const std::filesystem::path& file) {
       root["outputs"] ? read_key<std::vector<std::string>>(root, "outputs", file) : sidecar.classes;
   sidecar.channels = read_key<std::vector<std::string>>(root, "channels", file);
   sidecar.sha256 = read_key<std::string>(root, "sha256", file);
+  sidecar.cylinders = read_pieces(root, PieceFamily::cylinders, file);
+  sidecar.vehicles = read_pieces(root, PieceFamily::vehicles, file);
   return sidecar;
 }
 

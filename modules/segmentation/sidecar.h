@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "saker/objects/class_table.h"
+#include "saker/segmentation/piece_features.h"
 
 namespace saker::segmentation {
 
@@ -16,9 +18,12 @@ struct Sidecar {
   std::vector<std::string> classes;   ///< of the class table, one an output
   std::vector<std::string> channels;  ///< in the order of its input
   std::string sha256;                 ///< of the weights' file
+  /// Of object_pieces.h; none: pixels decide alone.
+  std::optional<PieceModel> cylinders, vehicles;
 };
 
-/// Throws Error where the file is not there or a key is missing or of the wrong type.
+/// Throws Error where the file is not there or a key is missing or of the wrong type, or
+/// `cylinders` or `vehicles` does not have a finite weight for each of the family's features.
 [[nodiscard]] Sidecar read_sidecar(const std::filesystem::path& file);
 
 /// \return the index into the table of each output's class.

@@ -29,7 +29,7 @@ struct LandmarkConfig {
   double two_share = 0.2;
   double moving_distance_m = 1.0;
   double sure_sd = 1.4;
-  double most_length_sd_m = 0.3;
+  double most_length_sd_m = 0.45;
   int most = 1000;
 
   template <class Visitor>
@@ -76,7 +76,8 @@ struct LandmarkConfig {
             "standard deviations by which a part that was not seen may lie nearer");
     v.field("most_length_sd_m", most_length_sd_m, {0.01, 10}, "m",
             "standard deviation of a cuboid's length by two windows that saw its ends best, above "
-            "which nobody has seen how long it is: the class's mean is no object yet");
+            "which it says no more than makers' lengths do (length_sd_m of the class table): the "
+            "class's mean is no object yet");
     v.field("most", most, {1, 100000}, "",
             "objects kept; the one with the fewest observations goes first");
   }

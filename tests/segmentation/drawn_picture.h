@@ -12,7 +12,7 @@
 
 namespace saker::segmentation::testing {
 
-inline constexpr int kRows = 40, kColumns = 1024, kTrunk = 2, kPole = 3;
+inline constexpr int kRows = 40, kColumns = 1024, kVehicle = 1, kTrunk = 2, kPole = 3;
 inline constexpr float kPitch = 2 * std::numbers::pi_v<float> / kColumns;
 
 /// An empty image of a turning sensor, in which upright surfaces that face it are drawn as its

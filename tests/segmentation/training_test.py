@@ -107,12 +107,27 @@ class Training(unittest.TestCase):
         optimizer = torch.optim.AdamW(model.parameters(), lr=1e-2)
         losses = []
         for _ in range(20):
-            loss = train.loss_of(model(values), truth)
+            loss = train.loss_of(model(values), values, truth)
             optimizer.zero_grad()
             loss.backward()
             optimizer.step()
             losses.append(loss.item())
         self.assertLess(losses[-1], 0.7 * losses[0])
+
+    def test_a_pixel_counts_by_its_range_and_not_without_a_label(self):
+        values, truth = torch.zeros(1, inputs.CHANNELS, 1, 4), torch.tensor([[[0, 0, 0, classes.IGNORED]]])
+        values[0, inputs.LOG_RANGE, 0] = torch.tensor([1.0, 10.0, 20.0, 20.0]).div(10).log()
+        weight = train.weights_of(values, truth)[0, 0]
+        torch.testing.assert_close(weight / weight[1], torch.tensor([0.5, 1.0, 2.0, 0.0]))
+        self.assertAlmostEqual(weight.mean().item(), 1, places=5)
+
+    def test_the_loss_is_the_mean_by_those_weights(self):
+        torch.manual_seed(2)
+        scores, truth = torch.randn(1, 3, 1, 2), torch.tensor([[[0, 2]]])
+        of_class, weight = torch.tensor([1.0, 1.0, 4.0]), torch.tensor([[[1.0, 3.0]]])
+        each = [train.entropy_of(scores[..., i:i + 1], truth[..., i:i + 1], torch.ones(1, 1, 1), of_class).item() for i in (0, 1)]
+        both = train.entropy_of(scores, truth, weight, of_class).item()
+        self.assertAlmostEqual(both, (1 * each[0] + 3 * 4 * each[1]) / (1 + 3 * 4), places=5)
 
     def test_batches_are_the_same_for_the_same_seed(self):
         points, label = made_scan()

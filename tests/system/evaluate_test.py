@@ -44,6 +44,17 @@ class Evaluate(ProgramTest):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("vehicle", run.stdout)
 
+    def test_pieces_have_a_table(self):
+        out = self.folder / "out"
+        run = saker("evaluate", self.drive, "-o", out, "--pieces")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for family, kinds in ("cylinders", ",crowned,bare,neither"), ("vehicles", ",vehicle,neither"):
+            header = (out / f"{family}.csv").read_text().splitlines()[0]
+            self.assertTrue(header.startswith("scan,one,") and header.endswith(kinds), header)
+
+    def test_pieces_without_a_folder_for_them_are_refused(self):
+        self.assertIn("-o OUT", self.refused("evaluate", self.drive, "--pieces"))
+
     def test_labels_of_another_length_are_refused(self):
         self.labels.write_bytes(b"\0" * 8)
         self.assertIn("000000.label: 8 bytes, expected 3200", self.refused("evaluate", self.drive))

@@ -97,8 +97,22 @@ TEST_F(Watched, ALorryThatPassedLongAgoExcusesNothing) {
   EXPECT_TRUE(broken(Invariant::no_collision));
 }
 
+TEST_F(Watched, ALorryThatOvertakesAVehicleCameToIt) {
+  schedule = {fault(FaultKind::lorry, 0, 4.6)};
+  schedule[0].towards_deg = 47;
+  truth.velocity = {1, 1, 0};
+  for (double t_s = 0; t_s < 3; t_s += 0.01) {
+    truth.T_world_body.translation() << 0.3 * t_s, 0.3 * t_s, 3;
+    step(t_s);
+  }
+  collide(3);
+  EXPECT_FALSE(broken(Invariant::no_collision));
+}
+
+/// It comes from ahead, whichever way the vehicle flies.
 TEST_F(Watched, AVehicleThatFliesIntoALorryCouldHaveBraked) {
   schedule = {fault(FaultKind::lorry, 0, 3)};
+  schedule[0].towards_deg = 180;
   truth.velocity = {1.5, 0, 0};
   fly(0, 4);
   collide(4);

@@ -19,6 +19,7 @@ _library = load_library()
 _library.saker_channel_name.restype = ctypes.c_char_p
 CHANNELS = _library.saker_channels()
 CHANNEL_NAMES = [_library.saker_channel_name(i).decode() for i in range(CHANNELS)]
+LOG_RANGE = CHANNEL_NAMES.index("log_range")
 
 
 def _pointer(array):

@@ -24,6 +24,7 @@ import labels as classes
 import model as network
 
 CLASS_WEIGHTS = torch.tensor([1.0, 2.0, 2.5, 4.0, 0.8])
+WEIGHT_RANGES = 5.0, 40.0  # m; between them a pixel counts by its range: far away a vehicle has few, and there the errors are
 KIND_SHARE = 0.4  # of the loss of the finer outputs: which kind of vehicle it is matters less than that it is one
 
 
@@ -33,25 +34,38 @@ def class_scores(scores):
     return torch.stack([scores[:, of == k].logsumexp(1) for k in range(len(classes.CLASSES))], 1)
 
 
-def dice_of(scores, truth, known):
+def weights_of(values, truth):
+    """How much each pixel counts: by its range, 0 where no label is known; mean 1 over the batch."""
+    weight = (10 * values[:, inputs.LOG_RANGE].exp()).clamp(*WEIGHT_RANGES) * (truth != classes.IGNORED)
+    return weight / weight.mean().clamp(min=1e-6)
+
+
+def dice_of(scores, truth, weight):
     """Soft Dice over the batch, mean over the classes that are in it."""
-    probability = scores.softmax(1) * known
-    target = F.one_hot(truth, scores.shape[1]).permute(0, 3, 1, 2) * known
-    both, size = (probability * target).sum((0, 2, 3)), (probability + target).sum((0, 2, 3))
-    there = target.sum((0, 2, 3)) > 20
+    weight = weight.unsqueeze(1)
+    probability = scores.softmax(1) * weight
+    target = F.one_hot(truth, scores.shape[1]).permute(0, 3, 1, 2) * weight
+    both, size = (probability * (target > 0)).sum((0, 2, 3)), (probability + target).sum((0, 2, 3))
+    there = (target > 0).sum((0, 2, 3)) > 20
     return (1 - 2 * both / (size + 1))[there].mean()
 
 
-def loss_of(output, truth):
+def entropy_of(scores, truth, weight, of_class=None):
+    """Cross-entropy, mean by the weights of pixels and, if given, of their classes."""
+    entropy = F.cross_entropy(scores, truth, of_class, ignore_index=classes.IGNORED, label_smoothing=0.02, reduction="none")
+    share = weight if of_class is None else weight * of_class[torch.where(truth == classes.IGNORED, 0, truth)]
+    return (weight * entropy).sum() / share.sum().clamp(min=1e-6)
+
+
+def loss_of(output, values, truth):
     """Cross-entropy and soft Dice of the classes, and a share of the cross-entropy of the outputs."""
     scores = network.scores(output).float()
     merged_scores = class_scores(scores)
-    known = truth != classes.IGNORED
+    weight = weights_of(values, truth)
     merge = torch.from_numpy(classes.merged(np.arange(256, dtype=np.uint8)).astype(np.int64)).to(truth.device)
     merged = merge[truth]
-    entropy = F.cross_entropy(merged_scores, merged, CLASS_WEIGHTS.to(truth.device), ignore_index=classes.IGNORED, label_smoothing=0.02)
-    kinds = F.cross_entropy(scores, truth, ignore_index=classes.IGNORED, label_smoothing=0.02)
-    return entropy + dice_of(merged_scores, torch.where(known, merged, 0), known.unsqueeze(1)) + KIND_SHARE * kinds
+    dice = dice_of(merged_scores, torch.where(truth != classes.IGNORED, merged, 0), weight)
+    return entropy_of(merged_scores, merged, weight, CLASS_WEIGHTS.to(truth.device)) + dice + KIND_SHARE * entropy_of(scores, truth, weight)
 
 
 def rate(step, steps, highest):
@@ -106,9 +120,10 @@ class Trainer:
         for group in self.optimizer.param_groups:
             group["lr"] = rate(self.step, self.args.steps, self.args.rate)
         self.model.train()
+        values, truth = values.to(self.args.device, memory_format=torch.channels_last), truth.to(self.args.device)
         with torch.autocast(self.args.device, dtype=torch.bfloat16):
-            output = self.model(values.to(self.args.device, memory_format=torch.channels_last))
-        loss = loss_of(output, truth.to(self.args.device))
+            output = self.model(values)
+        loss = loss_of(output, values, truth)
         self.optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(self.model.parameters(), 5.0)

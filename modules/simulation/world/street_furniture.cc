@@ -303,11 +303,13 @@ Furnishing any_car_sized_thing(core::Rng& rng) {
 void add_bollard_row(World& world, const StreetPalette& p, const SE3& T, core::Rng& rng) {
   const int count = 3 + rng.index(8);
   const double spacing = rng.uniform(0.9, 2);
-  const double r = rng.chance(0.5) ? rng.uniform(0.03, 0.06) : rng.uniform(0.08, 0.2);
-  const double h = rng.uniform(0.5, 1.1);
   const bool cones = rng.chance(0.2);
+  const bool posts = !cones && rng.chance(0.7);  // poles, however low: their shape is one
+  const double r = posts ? rng.uniform(0.03, 0.08) : rng.uniform(0.1, 0.2);
+  const double h = rng.uniform(0.5, 1.1);
   const bool chained = !cones && rng.chance(0.25);
-  const MaterialId m = any_plastic(world, p, rng);
+  const MaterialId m =
+      posts ? any_tint(world, p.metal, 0.06, 0.6, rng) : any_plastic(world, p, rng);
   for (int i = 0; i < count; ++i) {
     Pen pen = Pen(world.mesh, T).at(i * spacing, 0, 0);
     cones ? pen.tube({{0, 0, 0}, {0, 0, h}}, {0.16, 0.03}, 10, m) : pen.post(r, h, m, 10);

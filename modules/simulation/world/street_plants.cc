@@ -64,6 +64,9 @@ void top_off(const Nursery& n, Pen& pen, const Eigen::Vector3d& at, double radiu
   if (!bare) crown(n, at - Eigen::Vector3d(0, 0, 0.2), reach, 2 * reach, T, rng);
 }
 
+/// Radius at breast height of a tree of size 1: 0.12 to 0.72 m across, half of them below 0.3 m.
+double any_stem(core::Rng& rng) { return 0.06 * std::pow(0.36 / 0.06, rng.uniform()); }
+
 MaterialId any_bark(const Nursery& n, core::Rng& rng) {
   const double usual = n.world.materials[n.palette.bark].reflectivity;
   return any_tint(n.world, n.palette.bark, 0.5 * usual, 1.5 * usual, rng);
@@ -71,7 +74,7 @@ MaterialId any_bark(const Nursery& n, core::Rng& rng) {
 
 void add_single(const Nursery& n, double size, bool thick, const SE3& T, core::Rng& rng) {
   Pen pen(n.world.mesh, T);
-  const double radius = thick ? rng.uniform(0.3, 0.7) : size * rng.uniform(0.06, 0.2);
+  const double radius = thick ? rng.uniform(0.3, 0.7) : size * any_stem(rng);
   const double height = thick ? rng.uniform(2, 4) : rng.uniform(1.8, 4);
   const double lean = rng.chance(0.3) ? rng.uniform(0.1, 0.35) : rng.uniform(0, 0.06);
   const double turn = rng.uniform(0, kFullTurn);
@@ -83,7 +86,7 @@ void add_single(const Nursery& n, double size, bool thick, const SE3& T, core::R
 void add_forked(const Nursery& n, double size, const SE3& T, core::Rng& rng) {
   Pen pen(n.world.mesh, T);
   const MaterialId bark = any_bark(n, rng);
-  const double radius = size * rng.uniform(0.09, 0.25);
+  const double radius = size * std::max(0.09, any_stem(rng));
   const double fork = rng.uniform(0.4, 1.6);
   draw_stem(pen, {0, 0, 0}, {0, 0, fork}, radius, bark, rng);
   const double turn = rng.uniform(0, kFullTurn);
@@ -114,7 +117,7 @@ void add_many_stems(const Nursery& n, double size, const SE3& T, core::Rng& rng)
 
 void add_pollarded(const Nursery& n, double size, const SE3& T, core::Rng& rng) {
   Pen pen(n.world.mesh, T);
-  const double radius = size * rng.uniform(0.12, 0.3);
+  const double radius = size * std::max(0.12, any_stem(rng));
   const double height = rng.uniform(2, 3.5);
   const MaterialId bark = any_bark(n, rng);
   draw_stem(pen, {0, 0, 0}, {0, 0, height}, radius, bark, rng);

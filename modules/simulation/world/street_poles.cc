@@ -14,8 +14,11 @@ SE3 leaning(const SE3& T, core::Rng& rng) {
   return T * lean;
 }
 
-/// Thin ones of signs to thick ones of lamps and trams.
-double any_radius(core::Rng& rng) { return 0.04 * std::pow(0.25 / 0.04, rng.uniform()); }
+/// Of tube, thicker the higher it is: a sign's post 0.06 to 0.11 m across, a lamp of 10 m 0.1 to
+/// 0.26.
+double any_radius(double height, core::Rng& rng) {
+  return rng.uniform(0.025, 0.04) + height * rng.uniform(0.002, 0.009);
+}
 
 MaterialId any_coat(World& world, const StreetPalette& p, core::Rng& rng) {
   return any_tint(world, p.metal, 0.06, 0.6, rng);
@@ -42,8 +45,8 @@ void draw_plate(Pen& pen, double z, double half_width, double half_height, Mater
 
 void add_armed_lamp(World& world, const StreetPalette& p, const SE3& T, core::Rng& rng) {
   Pen pen(world.mesh, leaning(T, rng));
-  const double radius = std::max(0.05, any_radius(rng));
   const double height = rng.uniform(4, 11);
+  const double radius = any_radius(height, rng);
   const MaterialId coat = any_coat(world, p, rng);
   draw_shaft(pen, radius, height, rng.uniform(0.4, 1), coat);
   if (rng.chance(0.5)) pen.post(1.4 * radius, rng.uniform(0.3, 1.3), coat);
@@ -57,8 +60,8 @@ void add_armed_lamp(World& world, const StreetPalette& p, const SE3& T, core::Rn
 
 void add_boxed_pole(World& world, const StreetPalette& p, const SE3& T, core::Rng& rng) {
   Pen pen(world.mesh, leaning(T, rng));
-  const double r = any_radius(rng);
   const double height = rng.uniform(2.2, 8);
+  const double r = any_radius(height, rng);
   const MaterialId coat = any_coat(world, p, rng);
   draw_shaft(pen, r, height, 1, coat);
   const int boxes = 1 + rng.index(3);
@@ -136,8 +139,8 @@ void add_cross_arm_pole(World& world, const StreetPalette& p, const SE3& T, core
 
 void add_plain_pole(World& world, const StreetPalette& p, const SE3& T, core::Rng& rng) {
   Pen pen(world.mesh, leaning(T, rng));
-  const double r = any_radius(rng);
   const double height = rng.uniform(2, 12);
+  const double r = any_radius(height, rng);
   const MaterialId coat = any_coat(world, p, rng);
   draw_shaft(pen, r, height, rng.uniform(0.5, 1), coat);
   const double draw = rng.uniform();

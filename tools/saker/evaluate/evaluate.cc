@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "flight/run_files/detections_file.h"
 #include "saker/core/error.h"
@@ -17,6 +19,7 @@
 #include "tools/saker/configuration.h"
 #include "tools/saker/evaluate/evaluation.h"
 #include "tools/saker/evaluate/labelled_folder.h"
+#include "tools/saker/evaluate/piece_table.h"
 #include "tools/saker/evaluate/vehicle_figures.h"
 #include "tools/saker/evaluate/window_figures.h"
 
@@ -31,11 +34,38 @@ struct EvaluateOptions {
   std::string metadata;
   std::string run;  ///< what `saker replay` left, or empty
   double label_sd_m = 0.1;
+  bool pieces = false;
 };
 
-/// Segments and judges every labelled scan of the folder.
+/// OUT/cylinders.csv and vehicles.csv.
+class PieceFiles {
+ public:
+  PieceFiles(const OutputFolder& out, const objects::ClassTable& table)
+      : table_(table), figures_(table) {
+    for (const segmentation::PieceFamily family : segmentation::kPieceFamilies) {
+      const std::string name = segmentation::info_of(family).name;
+      files_.try_emplace(family, out / (name + ".csv")).first->second.write(piece_header(family));
+    }
+  }
+  void add(const lidar::Frame& frame, std::span<const std::uint32_t> ids,
+           segmentation::Segmentation& stage) {
+    for (const auto& piece : stage.pieces(frame.scan)) {
+      files_.at(piece.family).write(piece_row(frame.name, piece, ids, figures_, table_));
+    }
+  }
+  void finish() {
+    for (auto& [family, file] : files_) file.finish();
+  }
+
+ private:
+  std::map<segmentation::PieceFamily, core::OutputFile> files_;
+  const objects::ClassTable& table_;
+  SegmentationFigures figures_;
+};
+
+/// Segments and judges every labelled scan of the folder. \param pieces  or null.
 void evaluate_scans(const EvaluateOptions& options, segmentation::Segmentation& stage,
-                    Evaluation& evaluation) {
+                    Evaluation& evaluation, PieceFiles* pieces) {
   const LabelledFolder truth(options.folder);
   const auto source =
       lidar::open_recording(options.folder, lidar::RecordingFormat::kAutomatic, options.metadata);
@@ -50,6 +80,7 @@ void evaluate_scans(const EvaluateOptions& options, segmentation::Segmentation& 
     const auto ids = truth.ids(frame->name, frame->scan.size());
     const auto* boxes = truth.boxes(frame->name);
     if (!ids && boxes == nullptr) continue;
+    if (pieces != nullptr && ids) pieces->add(*frame, *ids, stage);
     const auto start = std::chrono::steady_clock::now();
     const lidar::Labels labels = stage.segment(frame->scan);
     const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
@@ -66,7 +97,10 @@ Json segmentation_figures(const EvaluateOptions& options, const CommonOptions& c
   const autonomy::Config config = read_configuration(common).autonomy;
   segmentation::Segmentation stage(config.segmentation, config.objects);
   Evaluation evaluation(config.objects);
-  evaluate_scans(options, stage, evaluation);
+  std::optional<PieceFiles> pieces;
+  if (options.pieces) pieces.emplace(*out, config.objects);
+  evaluate_scans(options, stage, evaluation, pieces ? &*pieces : nullptr);
+  if (pieces) pieces->finish();
   const Json figures = evaluation.json();
   std::cout << evaluation_text(figures);
   if (!out) return figures;
@@ -124,6 +158,7 @@ int evaluate(const EvaluateOptions& options, const CommonOptions& common) {
   }
   std::optional<OutputFolder> out;
   if (!common.out.empty()) out.emplace(common);
+  if (options.pieces && !out) throw Error("--pieces: expected -o OUT beside it");
   const Json figures = options.run.empty() ? segmentation_figures(options, common, out)
                                            : map_figures(options, common);
   if (out) core::write_file(*out / "evaluation.json", figures.dump(1) + "\n");
@@ -150,6 +185,10 @@ void add_evaluate(Commands& commands) {
                  "judge the map and the single windows that saker replay left in this folder by "
                  "FOLDER/vehicles.json")
       ->type_name("RUN");
+  app.add_flag(
+      "--pieces", options->pieces,
+      "also OUT/cylinders.csv and vehicles.csv: what tells pieces apart, by what is labelled "
+      "(scripts/segmentation-fit)");
   app.add_option("--label-sd", options->label_sd_m,
                  "of a labelled length, width and place, m: part of the NEES")
       ->type_name("M")

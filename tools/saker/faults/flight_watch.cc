@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <utility>
 
 #include "saker/core/sha256.h"
@@ -17,8 +18,9 @@ namespace {
 
 constexpr double kSettled_s = 2;
 constexpr double kAtRest_mps = 0.3;  // in turbulence
-constexpr double kStoodStill_mps = 0.5;
-constexpr std::size_t kSpeeds = 100;       // a second of steps
+constexpr double kFlewTowards_mps = 0.5;
+constexpr std::size_t kMotions = 100;  // steps of a second
+constexpr double kSecond_s = 1;
 constexpr double kBlindDescent_mps = 0.8;  // over ground, blown by the wind
 constexpr double kReaction_s = 0.6;  // a scan, a verdict, a step of guidance, and the vehicle's lag
 constexpr double kHardGust_mps = 5;
@@ -32,6 +34,10 @@ constexpr double kBegun_s = 15;         // the stages have what they need
 
 bool comes_down(const VehicleState& state) {
   return !state.armed || state.mode == VehicleMode::land || state.mode == VehicleMode::descend;
+}
+
+bool is_mover(const Fault& fault) {
+  return fault.kind == FaultKind::person || fault.kind == FaultKind::lorry;
 }
 
 double allocated_mb() {
@@ -68,8 +74,9 @@ void FlightWatch::on_step(const simulation::VehicleTruth& truth, const VehicleSt
     without_pose_s_ = NAN;
   else if (std::isnan(without_pose_s_))
     without_pose_s_ = now_s_;
-  speeds_.push_back(truth.velocity.head<2>().norm());
-  if (speeds_.size() > kSpeeds) speeds_.pop_front();
+  motions_.push_back({truth.T_world_body.translation().head<2>(), truth.velocity.head<2>()});
+  if (motions_.size() > kMotions) motions_.pop_front();
+  watch_movers();
   watch_collisions(truth, state);
   watch_rest(truth, state);
   watch_fence(truth, state);
@@ -111,14 +118,30 @@ bool FlightWatch::unavoidable(const simulation::VehicleTruth& truth,
   return blown();
 }
 
-/// By a person or a lorry that came to a vehicle at rest and has not passed it.
+void FlightWatch::watch_movers() {
+  for (std::size_t i = 0; i < schedule_.size(); ++i)
+    if (is_mover(schedule_[i]) && now_s_ >= schedule_[i].at_s)
+      goals_.try_emplace(i, motions_.back().place);
+}
+
+/// It goes straight through its goal.
+Eigen::Vector2d FlightWatch::place_of_mover(std::size_t fault, double t_s) const {
+  const Fault& mover = schedule_[fault];
+  const double towards = mover.towards_deg * std::numbers::pi / 180;
+  const double gone_m = mover.strength * std::max(0.0, t_s - mover.at_s);
+  return goals_.at(fault) +
+         (gone_m - kMoverComesFrom_m) * Eigen::Vector2d(std::cos(towards), std::sin(towards));
+}
+
+/// By a person or a lorry that has not passed, and that the vehicle did not fly towards.
 bool FlightWatch::struck() const {
-  return speeds_.front() < kStoodStill_mps &&
-         std::ranges::any_of(schedule_, [&](const Fault& fault) {
-           const bool moves = fault.kind == FaultKind::person || fault.kind == FaultKind::lorry;
-           return moves && now_s_ >= fault.at_s &&
-                  now_s_ < fault.at_s + 2 * kMoverComesFrom_m / fault.strength;
-         });
+  const Motion& before = motions_.front();
+  return std::ranges::any_of(goals_, [&](const auto& goal) {
+    const Fault& mover = schedule_[goal.first];
+    const bool passed = now_s_ >= mover.at_s + 2 * kMoverComesFrom_m / mover.strength;
+    const Eigen::Vector2d to_it = place_of_mover(goal.first, now_s_ - kSecond_s) - before.place;
+    return !passed && before.velocity.dot(to_it.normalized()) < kFlewTowards_mps;
+  });
 }
 
 /// A wall that stood there too late to brake for it.

@@ -40,12 +40,13 @@ struct Breach {
 /// motion's sd is that of both ends together. Off by more than 5 sd at once, or by more than 3 sd
 /// for a second, is a breach while the status is ok.
 ///
-/// A collision is unavoidable where something came to a vehicle that moved by less than 0.5 m/s a
-/// second before, while that passes: what it hits after that counts no more, for the simulator
-/// lets it fly on inside a lorry; where a thing appeared within the distance that it takes to see
-/// it, think and brake; where the vehicle came down without a pose, which the flight controller
-/// does where it is, at less than 0.8 m/s over ground, or by an order to abort, which looks for no
-/// place; and where a gust of more than 5 m/s blew within the last second.
+/// A collision is unavoidable where a person or a lorry came to a vehicle that a second before flew
+/// towards it by less than 0.5 m/s (stood, or was overtaken), while that passes: what it hits after
+/// that counts no more, for the simulator lets it fly on inside a lorry; where a thing appeared
+/// within the distance that it takes to see it, think and brake; where the vehicle came down
+/// without a pose, which the flight controller does where it is, at less than 0.8 m/s over ground,
+/// or by an order to abort, which looks for no place; and where a gust of more than 5 m/s blew
+/// within the last second.
 class FlightWatch : public autonomy::MissionObserver {
  public:
   /// `schedule` has to outlive this. \param begin of the mission
@@ -77,6 +78,10 @@ class FlightWatch : public autonomy::MissionObserver {
     int resets = 0;
     bool good = false;
   };
+  struct Motion {  // over ground
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  };
 
   void watch_collisions(const simulation::VehicleTruth& truth, const VehicleState& state);
   void watch_rest(const simulation::VehicleTruth& truth, const VehicleState& state);
@@ -84,7 +89,9 @@ class FlightWatch : public autonomy::MissionObserver {
   void watch_memory();
   [[nodiscard]] bool unavoidable(const simulation::VehicleTruth& truth,
                                  const VehicleState& state) const;
+  void watch_movers();
   [[nodiscard]] bool struck() const;
+  [[nodiscard]] Eigen::Vector2d place_of_mover(std::size_t fault, double t_s) const;
   [[nodiscard]] bool came_into_the_way() const;
   [[nodiscard]] bool blown() const;
   void broken(Invariant invariant, std::string text);
@@ -98,13 +105,14 @@ class FlightWatch : public autonomy::MissionObserver {
   simulation::VehicleTruth truth_;
   int collisions_ = 0;
   bool struck_ = false;
-  bool aborted_ = false;         // by an order that was accepted
-  std::deque<double> speeds_;    // m/s over ground, of the last second
-  double must_rest_s_ = NAN;     // when it was said
-  double without_pose_s_ = NAN;  // since when it comes down by itself
-  std::vector<Pose> poses_;      // of the last seconds, the oldest first
-  double off_since_s_ = NAN;     // by more than 3 sd
-  double memory_mb_ = NAN;       // as the flight began
+  bool aborted_ = false;                          // by an order that was accepted
+  std::deque<Motion> motions_;                    // of the last second
+  std::map<std::size_t, Eigen::Vector2d> goals_;  // of movers that set off: where the vehicle was
+  double must_rest_s_ = NAN;                      // when it was said
+  double without_pose_s_ = NAN;                   // since when it comes down by itself
+  std::vector<Pose> poses_;                       // of the last seconds, the oldest first
+  double off_since_s_ = NAN;                      // by more than 3 sd
+  double memory_mb_ = NAN;                        // as the flight began
   std::map<Invariant, Breach> breaches_;
   std::vector<autonomy::MissionEvent> events_;
   std::string path_;  // bytes of all true poses

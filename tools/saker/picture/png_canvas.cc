@@ -10,7 +10,7 @@ namespace saker::tools {
 namespace {
 
 constexpr int kShift = 4;               // OpenCV draws at 1/16 px
-constexpr double kFarPx = 20000;        // beyond, OpenCV's fixed point would overflow
+constexpr double kDrawablePx = 20000;   // beyond, OpenCV's fixed point would overflow
 constexpr double kPxPerTextScale = 26;  // of letters as high as those of a font of this size
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 
@@ -54,8 +54,8 @@ class PngCanvas : public Canvas {
   }
 
   void circle(const Eigen::Vector2d& centre, double radius, Colour colour, int width) override {
-    cv::circle(drawn_, fixed_point(centre), fixed(std::min(radius, kFarPx)), bgr(colour), width,
-               cv::LINE_AA, kShift);
+    cv::circle(drawn_, fixed_point(centre), fixed(std::min(radius, kDrawablePx)), bgr(colour),
+               width, cv::LINE_AA, kShift);
   }
 
   void stroke(std::span<const Eigen::Vector2d> places, Colour colour, int width,
@@ -71,7 +71,7 @@ class PngCanvas : public Canvas {
     const double left = style.anchor == Anchor::left     ? 0
                         : style.anchor == Anchor::middle ? 0.5 * width
                                                          : width;
-    const Eigen::Vector2d p = (at - origin_).cwiseMax(-kFarPx).cwiseMin(kFarPx);
+    const Eigen::Vector2d p = (at - origin_).cwiseMax(-kDrawablePx).cwiseMin(kDrawablePx);
     const cv::Point place(static_cast<int>(p.x() - left), static_cast<int>(p.y()));
     cv::putText(drawn_, text, place, kFont, style.size_px / kPxPerTextScale, bgr(colour), 1,
                 cv::LINE_AA);
@@ -103,7 +103,7 @@ class PngCanvas : public Canvas {
 
  private:
   [[nodiscard]] cv::Point fixed_point(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d p = (place - origin_).cwiseMax(-kFarPx).cwiseMin(kFarPx);
+    const Eigen::Vector2d p = (place - origin_).cwiseMax(-kDrawablePx).cwiseMin(kDrawablePx);
     return {fixed(p.x()), fixed(p.y())};
   }
 
