@@ -203,8 +203,10 @@ void Bridge::step(Time now, SigningTime signing_now) {
     send(message);
   }
   watch(now);
-  const bool heard = std::exchange(setpoint_heard_, false);
-  if ((heard && setpoint_.early(now)) || setpoint_.due(now)) send_setpoint(now);
+  if ((setpoint_heard_ && setpoint_.early(now)) || setpoint_.due(now)) {
+    setpoint_heard_ = false;
+    send_setpoint(now);
+  }
   send_orders(now);
 }
 

@@ -85,7 +85,8 @@ bool MavlinkProcess::serve() {
     handled = Bus::handle({&bus_}, kLongest, line_.descriptor());
   } else {
     (void)Bus::handle({}, ceil<milliseconds>(nanoseconds(rest)), line_.descriptor());
-    if (host_now() >= rests_until) handled = drain();
+    // Awake for the line shortly before: the bus does not wake it once more.
+    if (host_now() >= rests_until - kRest / 2) handled = drain();
   }
   if (handled > 0) bus_heard_ = host_now();
   step();
@@ -113,7 +114,7 @@ void MavlinkProcess::step() {
   write_line();
   if (now >= next_state_) say_state(now);
   if (now >= next_health_) say_health(now);
-  log_changes();
+  log_changes(now);
 }
 
 void MavlinkProcess::read_line() {
@@ -180,24 +181,28 @@ void MavlinkProcess::say_health(Time now) {
 }
 
 /// One line an event: who is there, who flies, and why.
-void MavlinkProcess::log_changes() {
-  const Time now = host_now();
-  std::string line;
-  if (!line_.is_open())
-    line = line_.fault();
-  else if (!bridge_.autopilot().refusal().empty())
-    line = bridge_.autopilot().refusal();
-  else if (!bridge_.autopilot().connected(now))
-    line = fmt::format("hears no autopilot on {}", config_.line);
-  else if (!bridge_.cause().empty())
-    line = bridge_.cause();
-  else
-    line = fmt::format("{} is system {}, {}", to_string(config_.bridge.autopilot),
-                       bridge_.autopilot().system(),
-                       bridge_.autopilot().state().armed ? "armed" : "not armed");
+void MavlinkProcess::log_changes(Time now) {
+  const StateIn& autopilot = bridge_.autopilot();
+  const std::tuple<bool, bool, bool, int, const std::string&, const std::string&,
+                   const std::string&>
+      seen(line_.is_open(), autopilot.connected(now), autopilot.state().armed, autopilot.system(),
+           line_.fault(), autopilot.refusal(), bridge_.cause());
+  if (seen == seen_) return;
+  seen_ = seen;
+  const std::string line = situation(now);
   if (line == logged_) return;
   logged_ = line;
   spdlog::info("{}", line);
+}
+
+std::string MavlinkProcess::situation(Time now) const {
+  const StateIn& autopilot = bridge_.autopilot();
+  if (!line_.is_open()) return line_.fault();
+  if (!autopilot.refusal().empty()) return autopilot.refusal();
+  if (!autopilot.connected(now)) return fmt::format("hears no autopilot on {}", config_.line);
+  if (!bridge_.cause().empty()) return bridge_.cause();
+  return fmt::format("{} is system {}, {}", to_string(config_.bridge.autopilot), autopilot.system(),
+                     autopilot.state().armed ? "armed" : "not armed");
 }
 
 }  // namespace saker::flight::mavlink

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "flight/bus/bus.h"
@@ -41,6 +42,9 @@ class MavlinkProcess {
   [[nodiscard]] const LatencyHistogram& added() const { return added_; }
 
  private:
+  static constexpr double kMiss_ms = 5;
+  static constexpr int kSampled = 7;
+
   void subscribe();
   int drain();
   void pass_on(const VehicleOdometry& odometry);
@@ -48,7 +52,8 @@ class MavlinkProcess {
   void write_line();
   void say_state(Time now);
   void say_health(Time now);
-  void log_changes();
+  void log_changes(Time now);
+  [[nodiscard]] std::string situation(Time now) const;
 
   MavlinkConfig config_;
   Bus& bus_;
@@ -59,13 +64,16 @@ class MavlinkProcess {
   Time bus_heard_ = 0;
   bool waited_ = false;  // what is handled now came in a rest
   bool settled_ = true;
-  LoopMeter line_meter_{"line"}, odometry_meter_{"odometry"};
+  LoopMeter line_meter_{"line", kMiss_ms, kSampled},
+      odometry_meter_{"odometry", kMiss_ms, kSampled};
   const Steady::time_point begun_ = Steady::now();
   const double begun_cpu_s_ = process_seconds();  // without what was read before
   LatencyHistogram added_;
   LatencyHistogram since_stamp_;  // from the stamp of odometry to the line
   long not_sent_ = 0;
-  std::string logged_;  // what was logged last
+  // What `situation` is made of, when it was looked at last; and what was logged last.
+  std::tuple<bool, bool, bool, int, std::string, std::string, std::string> seen_;
+  std::string logged_;
 };
 
 }  // namespace saker::flight::mavlink

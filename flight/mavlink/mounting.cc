@@ -24,18 +24,18 @@ Mounting::Mounting(const std::vector<double>& place_m, const std::vector<double>
        AngleAxisd(angles.x(), Vector3d::UnitX()))
           .toRotationMatrix();
   T_body_autopilot_.translation() = Vector3d::Map(place_m.data());
+  adjoint_ = core::se3_adjoint(T_body_autopilot_.inverse());
   yaw_ = core::yaw(T_body_autopilot_.linear());
 }
 
 VehicleOdometry Mounting::odometry(VehicleOdometry of_body) const {
   const Matrix3d R_odom_body = of_body.T_odom_body.linear();
   const Vector3d lever = T_body_autopilot_.translation();
-  const Matrix6d A = core::se3_adjoint(T_body_autopilot_.inverse());
   VehicleOdometry of_autopilot = of_body;
   of_autopilot.T_odom_body = of_body.T_odom_body * T_body_autopilot_;
   of_autopilot.velocity += R_odom_body * of_body.angular_velocity.cross(lever);
   of_autopilot.angular_velocity = T_body_autopilot_.linear().transpose() * of_body.angular_velocity;
-  of_autopilot.covariance = A * of_body.covariance * A.transpose();
+  of_autopilot.covariance = adjoint_ * of_body.covariance * adjoint_.transpose();
   return of_autopilot;
 }
 

@@ -31,7 +31,8 @@ class Mounting {
 
  private:
   SE3 T_body_autopilot_ = SE3::Identity();
-  double yaw_ = 0;  // of it
+  Matrix6d adjoint_ = Matrix6d::Identity();  // of its inverse
+  double yaw_ = 0;                           // of it
 };
 
 }  // namespace saker::flight::mavlink

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "flight/bus/occupancy_messages.h"
 #include "made_hall.h"
 
@@ -196,6 +198,19 @@ TEST(SensorClock, AStampThatGoesFarBackIsOfAClockThatBeganAnew) {
   clock.hear(from_seconds(500), t0);
   clock.hear(from_seconds(3), t0 + milliseconds(10));
   EXPECT_EQ(*clock.at(t0 + milliseconds(10)), from_seconds(3));
+}
+
+/// Of 16 runs of 2 ms four are asked for theirs.
+TEST(LoopMeter, SampledProcessorTimeIsThatOfAllRuns) {
+  LoopMeter meter("line", 5, 4);
+  for (int i = 0; i < 16; ++i) {
+    const LoopMeter::Run run(meter);
+    const std::clock_t begin = std::clock();
+    while (std::clock() - begin < CLOCKS_PER_SEC / 500) {
+    }
+  }
+  EXPECT_NEAR(meter.totals().cpu_s, 0.032, 0.004);
+  EXPECT_EQ(meter.totals().runs, 16);
 }
 
 TEST(LoopMeter, TellsRateMedianLatenessAndMisses) {

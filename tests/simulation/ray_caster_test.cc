@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "drawn.h"
 
 namespace saker::simulation {
@@ -196,6 +199,27 @@ TEST(RayCaster, BothFacesOfATriangleAreMet) {
     EXPECT_NEAR(shot.distance, 4, 1e-5);
     EXPECT_NEAR(shot.cosine, 1, 1e-5);
   }
+}
+
+/// Beams along the upright edges of a round wall, from its middle.
+TEST(RayCaster, NothingPassesWhereTrianglesMeet) {
+  constexpr int kSides = 64, kBeams = 100;
+  const auto corner = [](int side, double z) {
+    const double angle = 2 * std::numbers::pi * side / kSides;
+    return Eigen::Vector3d(19.9 * std::cos(angle), 19.9 * std::sin(angle), z);
+  };
+  World world;
+  const MaterialId material = world.add({kBuilding, 0.4F, 0, 0, 0, 0});
+  std::vector<Shot> shots;
+  for (int side = 0; side < kSides; ++side) {
+    Pen(world.mesh)
+        .quad(corner(side, -2), corner(side + 1, -2), corner(side + 1, 3), corner(side, 3),
+              material);
+    for (int beam = 0; beam < kBeams; ++beam)
+      shots.push_back(shot_along(corner(side, -1.9 + 4.8 * beam / kBeams).cast<float>()));
+  }
+  RayCaster(world).cast(shots, 100);
+  EXPECT_EQ(std::ranges::count(shots, true, &Shot::hit), kSides * kBeams);
 }
 
 /// Moving the world and the rays by the same motion changes no range.
