@@ -149,8 +149,8 @@ std::array<Wanted, 9> wanted_messages(const Dialect& dialect) {
            {SysStatus::kId, 1},
            {ExtendedSysState::kId, 5},
            {BatteryStatus::kId, 1},
-           {AttitudeQuaternion::kId, 20},
-           {LocalPositionNed::kId, 20},
+           {AttitudeQuaternion::kId, 10},
+           {LocalPositionNed::kId, 10},
            {dialect.estimator_message, 5},
            {RcChannels::kId, 5},
            {GpsGlobalOrigin::kId, 0.2}}};

@@ -16,7 +16,7 @@ class LoopMeter {
 
   /// \param miss_ms  a run that begins later than this after its deadline is a miss
   /// \param sampled  the processor's time is taken of one run in so many, times as many: asking the
-  ///     kernel for it twice a run is a tenth of what a short loop takes
+  ///     kernel for it twice a run took a twentieth of what the bridge costs
   explicit LoopMeter(std::string name, double miss_ms = 5, int sampled = 1)
       : name_(std::move(name)), miss_ms_(miss_ms), sampled_(sampled) {
     took_ms_ = Period().took_ms;
