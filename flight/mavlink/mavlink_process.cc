@@ -17,6 +17,7 @@ constexpr Time kStatePeriod = kNanosecondsPerSecond / 50;
 constexpr Time kHealthPeriod = kNanosecondsPerSecond;
 constexpr Time kPause = kNanosecondsPerSecond / 20;  // of the line: a frame takes 12 ms at 230400
 constexpr Time kRest = kNanosecondsPerSecond / 80;   // of the bus, where nothing in it is urgent
+constexpr Time kSoon = kNanosecondsPerSecond / 125;  // less is not worth another rest
 constexpr std::chrono::milliseconds kLongest{10};    // between looks at what is due
 constexpr int kMostReads = 64;                       // in one step
 
@@ -78,10 +79,11 @@ std::string MavlinkProcess::cost_text() const {
 
 bool MavlinkProcess::serve() {
   using std::chrono::ceil, std::chrono::milliseconds, std::chrono::nanoseconds;
-  const Time rests_until = std::min(bus_heard_ + kRest, bridge_.odometry().next());
-  const Time rest = rests_until - host_now();
+  const Time now = host_now(), next = bridge_.odometry().next();
+  const Time rests_until = std::min(bus_heard_ + kRest, next);
+  const Time rest = rests_until - now;
   int handled = 0;
-  if (rest <= 0) {
+  if (rest <= 0 || next - now < kSoon) {
     handled = Bus::handle({&bus_}, kLongest, line_.descriptor());
   } else {
     (void)Bus::handle({}, ceil<milliseconds>(nanoseconds(rest)), line_.descriptor());
