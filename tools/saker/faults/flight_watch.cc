@@ -19,8 +19,7 @@ namespace {
 constexpr double kSettled_s = 2;
 constexpr double kAtRest_mps = 0.3;  // in turbulence
 constexpr double kFlewTowards_mps = 0.5;
-constexpr std::size_t kMotions = 100;  // steps of a second
-constexpr double kSecond_s = 1;
+constexpr std::size_t kMotions = 100;      // steps of a second
 constexpr double kBlindDescent_mps = 0.8;  // over ground, blown by the wind
 constexpr double kReaction_s = 0.6;  // a scan, a verdict, a step of guidance, and the vehicle's lag
 constexpr double kHardGust_mps = 5;
@@ -74,7 +73,8 @@ void FlightWatch::on_step(const simulation::VehicleTruth& truth, const VehicleSt
     without_pose_s_ = NAN;
   else if (std::isnan(without_pose_s_))
     without_pose_s_ = now_s_;
-  motions_.push_back({truth.T_world_body.translation().head<2>(), truth.velocity.head<2>()});
+  motions_.push_back(
+      {now_s_, truth.T_world_body.translation().head<2>(), truth.velocity.head<2>()});
   if (motions_.size() > kMotions) motions_.pop_front();
   watch_movers();
   watch_collisions(truth, state);
@@ -139,7 +139,7 @@ bool FlightWatch::struck() const {
   return std::ranges::any_of(goals_, [&](const auto& goal) {
     const Fault& mover = schedule_[goal.first];
     const bool passed = now_s_ >= mover.at_s + 2 * kMoverComesFrom_m / mover.strength;
-    const Eigen::Vector2d to_it = place_of_mover(goal.first, now_s_ - kSecond_s) - before.place;
+    const Eigen::Vector2d to_it = place_of_mover(goal.first, before.t_s) - before.place;
     return !passed && before.velocity.dot(to_it.normalized()) < kFlewTowards_mps;
   });
 }

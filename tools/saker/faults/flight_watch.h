@@ -79,6 +79,7 @@ class FlightWatch : public autonomy::MissionObserver {
     bool good = false;
   };
   struct Motion {  // over ground
+    double t_s = 0;
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   };
