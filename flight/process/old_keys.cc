@@ -9,7 +9,7 @@ constexpr const char* kFaces =
 
 }  // namespace
 
-const std::array<core::MovedKey, 27> kOldKeys = {{
+const std::array<core::MovedKey, 28> kOldKeys = {{
     {"active.targets.default_size_m", nullptr, kClass},
     {"active.view.highest_deg", nullptr, "the sensor's metadata says its beams"},
     {"active.view.lowest_deg", nullptr, "the sensor's metadata says its beams"},
@@ -33,6 +33,7 @@ const std::array<core::MovedKey, 27> kOldKeys = {{
     {"detection.vehicle.tall", nullptr, kClass},
     {"detection.vehicle.width_m", nullptr, kClass},
     {"detection.vehicle.width_sd_m", nullptr, kClass},
+    {"fit.whole_width_sd_m", nullptr, "the fit takes every window that shows both ends"},
     {"odometry.motion.max_interval_s", nullptr, "odometry.motion.max_coast_s bounds it, too"},
     {"slam.landmarks.vehicle_length_m", nullptr, kClass},
     {"slam.merge", "multirobot", ""},

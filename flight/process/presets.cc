@@ -25,6 +25,7 @@ void paper(ProcessConfig& config) {
   c.active.discovery.most = 0;  // what is met beside the targets is mapped in passing
   c.uncertainty.model = "models/uncertainty-replica.yaml";
   config.fit.every_window = true;
+  config.fit.cuboid_bias = true;
 }
 
 /// The baseline of the paper's table: each target is visited from one side.

@@ -71,8 +71,8 @@ struct MeasurementNoiseConfig {
             "known than the fitted covariance has it");
     v.field("fitted_width_sd_m", fitted_width_sd_m, {0.01, 10}, "m",
             "standard deviation that windows state of a vehicle's width where they show both of "
-            "its sides; of others the hidden side lies anywhere within what they state; equal to "
-            "fit.whole_width_sd_m, from which on the fit takes the width for not measured");
+            "its sides; of others the hidden side lies anywhere within what they state, so that "
+            "many views of one side do not outvote a few of both");
     v.field("shared_root", shared_root, {1, 10000}, "",
             "windows that say as much of a trunk's or pole's root as the graph believes of one");
     v.field("shared_radius", shared_radius, {1, 10000}, "",

@@ -78,13 +78,11 @@ void summarise(const std::vector<Eigen::VectorXd>& errors, Evaluation& evaluatio
 
 }  // namespace
 
-Evaluation evaluate(const Model& model, objects::ClassId id, std::span<const Sample> samples,
-                    double whole_width_sd_m) {
+Evaluation evaluate(const Model& model, objects::ClassId id, std::span<const Sample> samples) {
   std::map<std::pair<std::string, int>, ObjectDraws> objects;
   for (const Sample& sample : samples) {
     if (sample.class_id != id) continue;
     if (!is_whole(sample, model.of(id).geometric.parts().whole_length_sd_m)) continue;
-    if (!shows_both_sides(sample, whole_width_sd_m)) continue;
     const Prediction prediction = model.predict(id, sample.view);
     if (prediction.extrapolated) continue;
     objects[{sample.recording, sample.object_id}][prediction.cell].add(

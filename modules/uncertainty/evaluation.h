@@ -23,8 +23,7 @@ struct Evaluation {
 
 /// Of the samples of one class that showed both ends and both sides; requires that the model knows
 /// it.
-/// \param whole_width_sd_m  as in FitConfig
 [[nodiscard]] Evaluation evaluate(const Model& model, objects::ClassId id,
-                                  std::span<const Sample> samples, double whole_width_sd_m);
+                                  std::span<const Sample> samples);
 
 }  // namespace saker::uncertainty

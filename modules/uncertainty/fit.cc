@@ -51,9 +51,11 @@ std::vector<ClassModel> fit(std::span<const Sample> samples, const objects::Clas
     ClassModel model = counted(own, table[id].name, used.least_objects);
     model.id = id;
     const bool cuboid = table[id].shape == objects::Shape::cuboid;
+    FitConfig of_class = used;
+    of_class.errors.about_truth = cuboid && !used.cuboid_bias;
     model.semantic = fit_semantic(own, used, seed, model.trials);
     model.geometric =
-        fit_geometric(own, {used.range_edges_m, cuboid ? used.sectors : 1}, used, model.trials);
+        fit_geometric(own, {used.range_edges_m, cuboid ? used.sectors : 1}, of_class, model.trials);
     models.push_back(std::move(model));
   }
   return models;

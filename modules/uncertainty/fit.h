@@ -14,18 +14,17 @@
 ///
 /// Confidence: a perceptron where it predicts held-out recordings better than a constant.
 /// Errors: what is measured of one object from one cell is averaged to one draw; bias, covariance
-/// and what an object's draws share are estimated together (random_effects.h). Cells that showed
-/// one side alone say nothing of the other: the class's width stands there, and by how much a kind
-/// differs from it is no error of all windows. Elevation and
-/// reflectivity are taken in where they raise the likelihood of held-out recordings.
+/// and what an object's draws share are estimated together (random_effects.h), those of cuboids
+/// about the truth. Elevation and reflectivity are taken in where they raise the likelihood of
+/// held-out recordings.
 namespace saker::uncertainty {
 
 struct FitConfig {
   std::vector<double> range_edges_m = {2, 4, 6, 8, 10, 12, 15, 18, 22, 28, 36, 48};
   int sectors = 6;
   bool every_window = false;
+  bool cuboid_bias = false;
   double whole_length_sd_m = 0.25;
-  double whole_width_sd_m = 0.2;
   int least_objects = 10;
   int least_draws = 5;
   int folds = 5;
@@ -40,12 +39,12 @@ struct FitConfig {
             "of the viewing angle between front and back, for cuboids: 30 degrees each");
     v.field("every_window", every_window, "",
             "whether every window counts, as in the paper, whatever of an object it showed");
+    v.field("cuboid_bias", cuboid_bias, "",
+            "whether cuboids have a bias that is taken off: the paper's hull leans inward; "
+            "detection.fitter: faces gives means, and what they lean by is the sizes that flew");
     v.field("whole_length_sd_m", whole_length_sd_m, {0, 100}, "m",
             "a cuboid whose measurement states a worse length did not show both its ends, which "
             "detection gives up to 0.25 m, or 0.35 m and more");
-    v.field("whole_width_sd_m", whole_width_sd_m, {0, 100}, "m",
-            "and one that states a worse width one side alone: where the other is, it does not "
-            "tell; detection gives 0.1 to 0.2 m where both were seen, else 0.25 m and more");
     v.field("least_objects", least_objects, {2, 100000}, "", "of a class, below it is not fitted");
     v.field("least_draws", least_draws, {1, 100000}, "",
             "of objects in an interval, below it counts as not flown");
@@ -60,7 +59,6 @@ struct FitConfig {
   [[nodiscard]] double most_length_sd_m() const {
     return every_window ? kAnySd : whole_length_sd_m;
   }
-  [[nodiscard]] double most_width_sd_m() const { return every_window ? kAnySd : whole_width_sd_m; }
 };
 
 /// One model a class that has samples, by ascending class. Throws Error where a class has too few

@@ -51,27 +51,10 @@ View mean_view(const std::vector<const Sample*>& samples) {
   return {range.mean(), angle.mean(), elevation.mean(), reflectivity.mean()};
 }
 
-/// The mean error, as if seen from the left. Place across and width are those of the samples that
-/// showed both sides; without one, the far side's place is left open.
-Draw mean_draw(const std::vector<const Sample*>& samples, const Eigen::VectorXd& parity,
-               double whole_width_sd_m) {
-  Draw draw;
-  draw.error = Eigen::VectorXd::Zero(parity.size());
-  Eigen::VectorXd both_sides = draw.error;
-  double shown = 0;
-  for (const Sample* sample : samples) {
-    draw.error += sample->error / static_cast<double>(samples.size());
-    if (!shows_both_sides(*sample, whole_width_sd_m)) continue;
-    both_sides += sample->error;
-    ++shown;
-  }
-  if (parity.size() < 4) return draw;  // a cylinder has no sides
-  if (shown > 0) {
-    for (const Eigen::Index across : {1, 3}) draw.error[across] = both_sides[across] / shown;
-  } else {
-    draw.open = Eigen::Vector4d(0, -0.5, 0, 1);  // the far side, outward
-  }
-  return draw;
+Eigen::VectorXd mean_error(const std::vector<const Sample*>& samples) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(samples.front()->error.size());
+  for (const Sample* sample : samples) sum += sample->error;
+  return sum / static_cast<double>(samples.size());
 }
 
 /// One draw for each object and cell, in the order of recordings, objects and cells; whole ones.
@@ -93,7 +76,8 @@ std::vector<SeenDraw> draws_of(std::span<const Sample> samples, const Intervals&
     if (object < 0 || current != last) ++object;
     last = current;
     const View& first = own.front()->view;
-    Draw draw = mean_draw(own, parity, config.most_width_sd_m());
+    Draw draw;
+    draw.error = mean_error(own);
     draw.object = object;
     draw.interval = intervals.of(first);
     draw.mirrored = intervals.mirrored(first);
@@ -156,15 +140,16 @@ Deviations deviations_of(Covariate covariate, std::span<const SeenDraw> draws, i
   return deviations;
 }
 
-/// Least squares of what the intervals' biases leave over, entry by entry.
+/// Least squares of what the intervals' biases leave over, entry by entry; 0 about the truth.
 Eigen::VectorXd bias_slope(std::span<const SeenDraw> seen, std::span<const Draw> draws,
                            const RandomEffects& effects, const std::vector<double>& z,
-                           const Eigen::VectorXd& parity) {
+                           const Eigen::VectorXd& parity, bool about_truth) {
   Eigen::VectorXd products = Eigen::VectorXd::Zero(parity.size());
+  if (about_truth) return products;
   Eigen::VectorXd squares = products;
   for (std::size_t i = 0; i < draws.size(); ++i) {
     const Eigen::VectorXd rest =
-        effects.errors[i] - effects.bias[static_cast<std::size_t>(draws[i].interval)];
+        draws[i].error - effects.bias[static_cast<std::size_t>(draws[i].interval)];
     const Eigen::VectorXd reach = z[i] * reach_of_slope(parity, seen[i].view.angle);
     products += rest.cwiseProduct(reach);
     squares += reach.cwiseAbs2();
@@ -181,7 +166,7 @@ double log_scale_slope(std::span<const Draw> draws, const RandomEffects& effects
   std::vector<double> ratios;  // squared errors over what was expected
   for (std::size_t i = 0; i < draws.size(); ++i) {
     const auto interval = static_cast<std::size_t>(draws[i].interval);
-    const Eigen::VectorXd rest = effects.errors[i] - effects.bias[interval];
+    const Eigen::VectorXd rest = draws[i].error - effects.bias[interval];
     const Eigen::MatrixXd covariance = effects.covariance[interval] + effects.common;
     const double squared = rest.dot(covariance.llt().solve(rest));
     ratios.push_back(std::min(squared, most_sd * most_sd) / n);
@@ -254,7 +239,8 @@ Parts fit_parts(std::span<const SeenDraw> seen, const Intervals& intervals,
   }
   for (std::size_t k = 0; k < covariates.size(); ++k) {
     const Deviations by = deviations_of(covariates[k], seen, intervals.size());
-    const Eigen::VectorXd bias = bias_slope(seen, draws, effects, by.z, parity);
+    const Eigen::VectorXd bias =
+        bias_slope(seen, draws, effects, by.z, parity, config.errors.about_truth);
     for (std::size_t i = 0; i < draws.size(); ++i) {
       draws[i].error -= by.z[i] * bias.cwiseProduct(reach_of_slope(parity, seen[i].view.angle));
     }
@@ -308,7 +294,7 @@ double log_likelihood(const SeenDraw& seen, const GeometricModel& model) {
   return -0.5 * (n * std::log(2 * std::numbers::pi) + rest.dot(factor.solve(rest))) - half_log_det;
 }
 
-/// The mean log-likelihood of each recording's draws that leave nothing open, from fits without it.
+/// The mean log-likelihood of each recording's draws, from fits without it.
 HeldOut scores(const std::vector<SeenDraw>& draws, const Intervals& intervals,
                const std::vector<Covariate>& covariates, const FitConfig& config) {
   std::vector<std::string> recordings;
@@ -322,7 +308,6 @@ HeldOut scores(const std::vector<SeenDraw>& draws, const Intervals& intervals,
     const GeometricModel model(fit_parts(seen, intervals, covariates, config));
     std::map<std::string, std::vector<double>> likelihoods;
     for (const SeenDraw& draw : unseen) {
-      if (draw.draw.open.size() > 0) continue;
       likelihoods[draw.recording].push_back(log_likelihood(draw, model));
     }
     HeldOut means;

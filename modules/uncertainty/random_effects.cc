@@ -36,7 +36,6 @@ class Estimation {
         weights_(draws.size(), 1.0) {
     int objects = 0;
     for (const Draw& draw : draws) objects = std::max(objects, draw.object + 1);
-    for (const Draw& draw : draws) errors_.push_back(draw.error);
     additions_.assign(at(objects), {zero_vector(), zero_matrix()});
     counts_.assign(alike.size(), 0);
     for (const Draw& draw : draws) ++counts_[at(draw.interval)];
@@ -46,7 +45,6 @@ class Estimation {
   /// \return how much the common covariance changed, relative to itself
   double iterate() {
     const Matrix before = common_;
-    fill_in();
     weigh();
     estimate_additions();
     estimate_biases();
@@ -55,16 +53,15 @@ class Estimation {
     return (common_ - before).norm() / before.norm();
   }
 
-  [[nodiscard]] RandomEffects result() {
-    fill_in();
+  [[nodiscard]] RandomEffects result() const {
     RandomEffects result;
     result.draws = counts_;
     result.common = common_;
-    result.errors = errors_;
     for (std::size_t i = 0; i < bias_.size(); ++i) {
       result.bias.emplace_back(bias_[i]);
       const double known = counts_[i] + config_.bias_prior_draws;
-      result.covariance.emplace_back(covariance_[i] * (known > 0 ? 1 + 1 / known : 1));
+      const bool bias_is_known = config_.about_truth || !(known > 0);
+      result.covariance.emplace_back(covariance_[i] * (bias_is_known ? 1 : 1 + 1 / known));
     }
     return result;
   }
@@ -95,48 +92,19 @@ class Estimation {
   }
 
   [[nodiscard]] Vector rest_of(std::size_t i) const {
-    return Vector(errors_[i]) - bias_[at(draws_[i].interval)];
+    return Vector(draws_[i].error) - bias_[at(draws_[i].interval)];
   }
 
-  /// What a draw leaves open: as what it says lets expect it by the present estimates.
-  void fill_in() {
-    const std::vector<Matrix> known = inverse_covariances();
-    for (std::size_t i = 0; i < draws_.size(); ++i) {
-      const Draw& draw = draws_[i];
-      if (draw.open.size() == 0) continue;
-      const Vector expected =
-          bias_[at(draw.interval)] + folded(draw, additions_[at(draw.object)].mean);
-      const Vector rest = draw.error - expected;
-      errors_[i] = expected + said(draw, known[at(draw.interval)]) * rest;
-    }
-  }
-
-  /// Of an error with that information: onto what a draw says of it, the open rest by regression.
-  [[nodiscard]] Matrix said(const Draw& draw, const Matrix& information) const {
-    return Matrix::Identity(parity_.size(), parity_.size()) -
-           left_open(draw, information) * information;
-  }
-
-  /// Variance of what it leaves open.
-  [[nodiscard]] Matrix left_open(const Draw& draw, const Matrix& information) const {
-    if (draw.open.size() == 0) return zero_matrix();
-    const Vector open = draw.open;
-    return open * open.transpose() / open.dot(information * open);
-  }
-
-  /// All intervals alike, half of the variance common; by the draws that leave nothing open.
+  /// All intervals alike, half of the variance common.
   void start(std::size_t intervals) {
-    std::vector<Vector> errors;
-    for (const Draw& draw : draws_) {
-      if (draw.open.size() == 0) errors.emplace_back(draw.error);
-    }
-    if (errors.empty()) errors.assign(errors_.begin(), errors_.end());
-    const double share = 1 / static_cast<double>(errors.size());
+    const double share = 1 / static_cast<double>(draws_.size());
     Vector mean = zero_vector();
-    for (const Vector& error : errors) mean += share * error;
+    if (!config_.about_truth) {
+      for (const Draw& draw : draws_) mean += share * draw.error;
+    }
     Matrix covariance = least();
-    for (const Vector& error : errors) {
-      const Vector rest = error - mean;
+    for (const Draw& draw : draws_) {
+      const Vector rest = draw.error - mean;
       covariance += share * rest * rest.transpose();
     }
     class_bias_ = mean;
@@ -171,7 +139,7 @@ class Estimation {
     }
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Matrix& known = information[at(draws_[i].interval)];
-      const Vector rest = said(draws_[i], known) * rest_of(i);
+      const Vector rest = rest_of(i);
       const double squared = rest.dot(known * rest);
       weights_[i] = std::min(1.0, config_.most_sd * config_.most_sd / squared);
     }
@@ -183,8 +151,7 @@ class Estimation {
     std::vector<Vector> weighted(additions_.size(), zero_vector());
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
-      const Matrix& all = known[at(draw.interval)];
-      const Matrix own = folded(draw, Matrix(weights_[i] * all * said(draw, all)));
+      const Matrix own = folded(draw, Matrix(weights_[i] * known[at(draw.interval)]));
       information[at(draw.object)] += own;
       weighted[at(draw.object)] += own * folded(draw, rest_of(i));
     }
@@ -195,11 +162,12 @@ class Estimation {
   }
 
   void estimate_biases() {
+    if (config_.about_truth) return;  // they stay 0
     std::vector<std::vector<Vector>> errors(bias_.size());
     std::vector<Vector> all;
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
-      const Vector own = errors_[i] - folded(draw, additions_[at(draw.object)].mean);
+      const Vector own = draw.error - folded(draw, additions_[at(draw.object)].mean);
       all.push_back(alike(at(draw.interval), own));
       errors[at(draw.interval)].push_back(own);
     }
@@ -218,24 +186,23 @@ class Estimation {
 
   void estimate_covariances() {
     std::vector<Matrix> sums(bias_.size(), zero_matrix());
-    const std::vector<Matrix> inverse = inverse_covariances();
     Matrix total = zero_matrix();
     for (std::size_t i = 0; i < draws_.size(); ++i) {
       const Draw& draw = draws_[i];
       const Addition& addition = additions_[at(draw.object)];
       const Vector rest = rest_of(i) - folded(draw, addition.mean);
-      const Matrix onto = said(draw, inverse[at(draw.interval)]);
-      const Matrix uncertain = onto * folded(draw, addition.covariance) * onto.transpose() +
-                               left_open(draw, inverse[at(draw.interval)]);
+      const Matrix uncertain = folded(draw, addition.covariance);
       const Matrix square = weights_[i] * (rest * rest.transpose() + uncertain);
       sums[at(draw.interval)] += square;
       total += alike(at(draw.interval), square);
     }
     const auto used = std::count_if(counts_.begin(), counts_.end(), [](int n) { return n > 0; });
-    const double freedom = static_cast<double>(draws_.size()) - static_cast<double>(used);
+    const double freedom =
+        static_cast<double>(draws_.size()) - (config_.about_truth ? 0 : static_cast<double>(used));
     const Matrix mean = total / std::max(freedom, 1.0);
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      const double known = std::max(counts_[i] - 1, 0) + config_.prior_draws;
+      const int free = config_.about_truth ? counts_[i] : std::max(counts_[i] - 1, 0);
+      const double known = free + config_.prior_draws;
       const Matrix of_class = alike(i, mean);
       covariance_[i] = of_class + least();
       if (known > 0) covariance_[i] = (sums[i] + config_.prior_draws * of_class) / known + least();
@@ -255,8 +222,7 @@ class Estimation {
   std::vector<Vector> alike_;  // one an interval
   Vector parity_;
   RandomEffectsConfig config_;
-  std::vector<double> weights_;          // one a draw
-  std::vector<Eigen::VectorXd> errors_;  // the same, filled in
+  std::vector<double> weights_;  // one a draw
   std::vector<Addition> additions_;
   std::vector<int> counts_;  // draws, one an interval
   Vector class_bias_;

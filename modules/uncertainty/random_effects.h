@@ -16,6 +16,7 @@ struct RandomEffectsConfig {
   double least_sd_m = 0.005;
   int iterations = 1000;
   double tolerance = 2e-4;
+  bool about_truth = false;  ///< no bias: variances are about zero; FitConfig says for which class
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -38,27 +39,24 @@ struct RandomEffectsConfig {
 
 /// The mean error of one object as measured from one cell: one draw.
 struct Draw {
-  int object = 0;             ///< from 0 without gaps
-  int interval = 0;           ///< of range and |angle|
-  bool mirrored = false;      ///< seen from the right
-  Eigen::VectorXd error;      ///< as if seen from the left
-  Eigen::VectorXd open = {};  ///< along which it says nothing of the error; empty: it says all
+  int object = 0;         ///< from 0 without gaps
+  int interval = 0;       ///< of range and |angle|
+  bool mirrored = false;  ///< seen from the right
+  Eigen::VectorXd error;  ///< as if seen from the left
 };
 
-/// error = bias of the interval + what the object adds to all its measurements + rest.
+/// error = bias of the interval + what the object adds to all its measurements + rest. About the
+/// truth all biases are 0.
 struct RandomEffects {
   std::vector<Eigen::VectorXd> bias;        ///< one an interval
   std::vector<Eigen::MatrixXd> covariance;  ///< of the rest, for a new object: one an interval
   std::vector<int> draws;                   ///< one an interval
   Eigen::MatrixXd common;                   ///< of what an object adds, in its own frame
-  std::vector<Eigen::VectorXd> errors;      ///< of the draws, what they left open filled in
 };
 
 /// The variances of a linear model with random effects by expectation and maximisation (Laird and
 /// Ware, Biometrics 1982), with shrinkage towards the class and bounded influence of outliers.
-/// The covariance of an interval contains what its bias is uncertain by. What a draw leaves open is
-/// missing data (Little and Rubin, Statistical Analysis with Missing Data, 2002): filled in by the
-/// rest of its error, with the variance that this has.
+/// The covariance of an interval contains what its bias is uncertain by.
 /// \param alike   one an interval: signs of the error's entries under which those of all intervals
 ///                are alike, as the class's mean takes them
 /// \param parity  of the error's entries under the mirror between left and right

@@ -170,10 +170,6 @@ bool is_whole(const Sample& sample, double most_length_sd_m) {
   return !(sample.length_sd > most_length_sd_m);
 }
 
-bool shows_both_sides(const Sample& sample, double most_width_sd_m) {
-  return !(sample.width_sd > most_width_sd_m);
-}
-
 std::vector<Sample> read_samples(const std::filesystem::path& file,
                                  const objects::ClassTable& table) {
   const std::string text = core::read_file(file);

@@ -39,9 +39,6 @@ struct Sample {
 /// `most_length_sd_m` of its length. Unknown counts as shown.
 [[nodiscard]] bool is_whole(const Sample& sample, double most_length_sd_m);
 
-/// Whether it showed both of its sides: not of a cuboid that states more of its width.
-[[nodiscard]] bool shows_both_sides(const Sample& sample, double most_width_sd_m);
-
 /// CSV with a header line; one line a sample, angles in radians, unknown numbers as nan. Throws
 /// Error that names file, line and what was expected.
 [[nodiscard]] std::vector<Sample> read_samples(const std::filesystem::path& file,

@@ -280,11 +280,6 @@ TEST(UncertaintyFor, ThePapersEstimatorSeesLengthsBestFromObliquelyInFrontWorstF
   EXPECT_LT(length_sd(45), length_sd(15));
 }
 
-TEST(FittedNoise, AWidthThatTheFitTakesForNotMeasuredHasAHiddenSide) {
-  EXPECT_GE(uncertainty::FitConfig().whole_width_sd_m,
-            slam::MeasurementNoiseConfig().fitted_width_sd_m);
-}
-
 TEST(SensorNote, SaysWhereTheModelIsOfAnotherSensor) {
   uncertainty::Provenance provenance;
   provenance.sensor = "OS1-64 512x10";

@@ -8,8 +8,6 @@
 namespace saker::uncertainty {
 namespace {
 
-constexpr double kWidthSd = 0.2;  // m, that a whole one states at most
-
 const Eigen::Vector4d kBias(0.1, 0, -0.2, 0.05);
 
 Eigen::Matrix4d covariance() {
@@ -43,7 +41,7 @@ std::vector<Sample> drawn(int objects, double factor = 1, int windows = 1) {
 }
 
 Evaluation evaluated(const std::vector<Sample>& samples) {
-  return evaluate(model(), kMadeClass, samples, kWidthSd);
+  return evaluate(model(), kMadeClass, samples);
 }
 
 TEST(EvaluationTest, OfErrorsAsTheModelSaysIsOne) {
@@ -92,7 +90,7 @@ TEST(EvaluationTest, WhatAllCellsOfAnObjectShareIsJudgedByTheCommonPart) {
     const Eigen::Vector4d added = normal4(rng, parts.common);
     for (std::size_t k = i; k < i + 4; ++k) samples[k].error += added;
   }
-  const Evaluation result = evaluate(made_model(parts, 0.8), kMadeClass, samples, kWidthSd);
+  const Evaluation result = evaluate(made_model(parts, 0.8), kMadeClass, samples);
   EXPECT_NEAR(result.nees, 1, 0.1);
   EXPECT_NEAR(result.fused_nees, 1, 0.1);
 }
@@ -103,11 +101,10 @@ TEST(EvaluationTest, OnlyWholeFlownSamplesOfTheClassAreJudged) {
     spoil(samples[0]);
     GeometricModel::Parts parts = even_parts(kBias, covariance());
     parts.whole_length_sd_m = 0.25;
-    return evaluate(made_model(parts), kMadeClass, samples, kWidthSd).draws;
+    return evaluate(made_model(parts), kMadeClass, samples).draws;
   };
   EXPECT_EQ(draws_with([](Sample&) {}), 40);
   EXPECT_EQ(draws_with([](Sample& s) { s.length_sd = 0.3; }), 39);
-  EXPECT_EQ(draws_with([](Sample& s) { s.width_sd = 0.3; }), 39);
   EXPECT_EQ(draws_with([](Sample& s) { s.view.range = 25; }), 39);
   EXPECT_EQ(draws_with([](Sample& s) { s.class_id = 3; }), 39);
 }

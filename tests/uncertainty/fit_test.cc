@@ -21,6 +21,7 @@ FitConfig small_config() {
   FitConfig config;
   config.range_edges_m = kEdges;
   config.folds = 2;
+  config.cuboid_bias = true;  // the made law has one
   config.confidence.epochs = 15;
   return config;
 }
@@ -100,8 +101,7 @@ TEST(FitTest, ManyWindowsFromOneCellAreOneDraw) {
 TEST(FitTest, IsHonestAboutSamplesItHasNotSeen) {
   const MadeLaw law;
   const Model model(fit(made_samples(law, kEdges, 150, 4), kTable, small_config(), 1));
-  const Evaluation unseen =
-      evaluate(model, kVehicle, made_samples(law, kEdges, 300, 5), FitConfig().whole_width_sd_m);
+  const Evaluation unseen = evaluate(model, kVehicle, made_samples(law, kEdges, 300, 5));
   EXPECT_EQ(unseen.objects, 300);
   EXPECT_GT(unseen.nees, 0.9);
   EXPECT_LT(unseen.nees, 1.1);
@@ -123,6 +123,23 @@ std::vector<Sample> with_hidden_ends(std::vector<Sample> samples) {
   return samples;
 }
 
+TEST(FitTest, CuboidsHaveNoBiasUnlessItIsAskedForAndAreHonestAboutTheTruth) {
+  FitConfig config = small_config();
+  config.cuboid_bias = FitConfig().cuboid_bias;
+  const Model model(fit(made_samples(MadeLaw(), kEdges, 150, 4), kTable, config, 1));
+  EXPECT_TRUE(model.predict(kVehicle, {6.5, 1.3, 0.3, NAN}).bias.isZero());
+  const Evaluation unseen = evaluate(model, kVehicle, made_samples(MadeLaw(), kEdges, 300, 5));
+  EXPECT_GT(unseen.nees, 0.9);
+  EXPECT_LT(unseen.nees, 1.1);
+}
+
+TEST(FitTest, CylindersKeepTheirBias) {
+  FitConfig config = small_config();
+  config.cuboid_bias = false;
+  EXPECT_NEAR(fitted(made_poles(100, 2), config).geometric.expected({6.5, 0, NAN, NAN}).bias[0],
+              0.02, 0.01);
+}
+
 TEST(FitTest, WindowsThatDoNotShowBothEndsMoveNoBiasOrCovariance) {
   const MadeLaw law;
   const View ahead{6.5, 0.26, NAN, NAN};
@@ -130,33 +147,6 @@ TEST(FitTest, WindowsThatDoNotShowBothEndsMoveNoBiasOrCovariance) {
   EXPECT_LT((model.expected(ahead).bias - law.bias(ahead)).cwiseAbs().maxCoeff(), 0.025);
   const Eigen::MatrixXd expected = law.covariance(ahead);
   EXPECT_LT((model.expected(ahead).covariance - expected).norm(), 0.3 * expected.norm());
-}
-
-/// From beside nobody sees the far side: the class's width stands there, from which this object
-/// differs by `sd`.
-std::vector<Sample> with_hidden_sides(std::vector<Sample> samples, double sd) {
-  core::Rng rng(6);
-  std::map<std::string, double> differs;
-  for (const Sample& sample : samples) differs.try_emplace(sample.recording, rng.normal(0, sd));
-  for (Sample& sample : samples) {
-    sample.width_sd = 0.15;
-    if (std::abs(std::sin(sample.view.angle)) < 0.7) continue;
-    sample.width_sd = 0.5;
-    const double outward = differs[sample.recording];
-    sample.error[3] += outward;
-    sample.error[1] += (sample.view.angle > 0 ? -0.5 : 0.5) * outward;
-  }
-  return samples;
-}
-
-TEST(FitTest, WhatAKindDiffersFromTheClassWhereASideIsHiddenIsNotCommon) {
-  const MadeLaw law;
-  const GeometricModel model = geometric(with_hidden_sides(made_samples(law, kEdges, 300, 1), 0.1));
-  EXPECT_NEAR(std::sqrt(model.parts().common(3, 3)), 0.02, 0.008);
-  const View beside{6.5, 1.3, NAN, NAN};
-  const Eigen::MatrixXd expected = law.covariance(beside);
-  EXPECT_LT(std::sqrt(model.expected(beside).covariance(3, 3)), 0.09);  // as the class's mean
-  EXPECT_NEAR(model.expected(beside).covariance(2, 2), expected(2, 2), 0.3 * expected(2, 2));
 }
 
 TEST(FitTest, TheShareOfWholeWindowsIsKnownByWhereTheyAreSeenFrom) {

@@ -118,7 +118,7 @@ int fit(const FitOptions& options, const CommonOptions& common) {
     print_fit(own, table[own.id].name);
     print_regions(model, own.id);
     if (unseen.empty()) continue;
-    print_test(uncertainty::evaluate(model, own.id, unseen, config.fit.most_width_sd_m()));
+    print_test(uncertainty::evaluate(model, own.id, unseen));
   }
   model.save(file, table);
   if (options.pictures.empty()) return 0;

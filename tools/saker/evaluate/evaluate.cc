@@ -190,7 +190,7 @@ void add_evaluate(Commands& commands) {
       "also OUT/cylinders.csv and vehicles.csv: what tells pieces apart, by what is labelled "
       "(scripts/segmentation-fit)");
   app.add_option("--label-sd", options->label_sd_m,
-                 "of a labelled length, width and place, m: part of the NEES")
+                 "of a labelled length and width, m, twice that of its centre: part of the NEES")
       ->type_name("M")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();

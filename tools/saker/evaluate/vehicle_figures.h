@@ -59,8 +59,9 @@ struct VehicleFigures {
   [[nodiscard]] nlohmann::ordered_json json() const;  ///< null where none is found
 };
 
-/// \param poses  of every scan, in their order. \param label_sd_m  of a labelled length, width and
-/// place (x and y), independent: it goes into the NEES beside the map's own covariance.
+/// \param poses  of every scan, in their order. \param label_sd_m  of a labelled length and width,
+/// whose four faces err independently, so that its centre's is half of it: it goes into the NEES
+/// beside the map's own covariance.
 [[nodiscard]] VehicleFigures vehicle_figures(const objects::ObjectMap& map,
                                              const objects::ClassTable& table,
                                              const std::vector<StampedPose>& poses,
