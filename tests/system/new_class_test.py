@@ -88,10 +88,10 @@ class NewClass(ProgramTest):
         return samples
 
     def fitted(self):
-        """Model file of the shipped classes and of bins."""
+        """Model file of the shipped classes and of bins, whose detection leans inward."""
         model = self.folder / "uncertainty.yaml"
         run = self.saker("characterise", "fit", self.collected(), "--add-to", ROOT / "configs/models/uncertainty.yaml",
-                         "--data", "six yards", "-o", model)
+                         "--data", "six yards", "-o", model, "--set", "fit.cuboid_bias=true")
         self.assertIn(f"bin: {RECORDINGS * len(SIZES)} objects in {RECORDINGS} recordings", run.stdout)
         return model
 
@@ -108,6 +108,7 @@ class NewClass(ProgramTest):
                    "fit.sectors=4")
         self.assertRegex(model.read_text(), r"range_edges: \[3, 7, 12\]")
         self.assertRegex(model.read_text(), r"sectors: 4\b")
+        self.assertEqual({length for _, length in self.length_biases(model.read_text())}, {0}, "about the truth")
         for wrong, said in [("fit.sectors=1", "sectors"), ("fit.range_edges_m=[3, 2]", "ascending"),
                             ("fit.least_objects=19", "bin: 18 objects")]:
             run = self.saker("characterise", "fit", samples, "-o", self.folder / "no.yaml", "--set", wrong, status=2)
