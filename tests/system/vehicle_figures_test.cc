@@ -94,6 +94,12 @@ TEST_F(VehicleFiguresTest, ConsistencyHoldsTheMapsAndTheLabelsNoise) {
   EXPECT_NEAR(figures(0.2).vehicles.front().size_nees, 0.09 / 0.09 / 2, 1e-9);
 }
 
+TEST_F(VehicleFiguresTest, ALabelledCentreIsKnownTwiceAsWellAsASize) {
+  add_object(5, 0.3).covariance = Eigen::MatrixXd::Identity(9, 9) * 0.05;
+  EXPECT_NEAR(figures(0).vehicles.front().place_nees, 0.09 / 0.05 / 2, 1e-9);
+  EXPECT_NEAR(figures(0.2).vehicles.front().place_nees, 0.09 / 0.06 / 2, 1e-9);
+}
+
 TEST_F(VehicleFiguresTest, WithoutFoundVehiclesFiguresAreNull) {
   const auto json = figures().json();
   EXPECT_EQ(json["found"], 0);

@@ -80,14 +80,12 @@ void add_consistency(VehicleResult& result, const objects::MapObject& object,
                      const Eigen::Vector2d& size_error, const Eigen::Vector2d& place_error,
                      double label_sd_m) {
   if (object.covariance.size() == 0 || !object.covariance.allFinite()) return;
-  const double label = label_sd_m * label_sd_m;
+  const Eigen::Matrix2d label = Eigen::Matrix2d::Identity() * label_sd_m * label_sd_m;
   constexpr double kOfCentre = 0.25;  // (a + b) / 2 of faces that err alone, a size is a - b
   const Eigen::Matrix3d R = std::get<objects::Cuboid>(object.model).pose.linear();
-  const Eigen::Matrix2d size =
-      object.covariance.block<2, 2>(6, 6) + label * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d size = object.covariance.block<2, 2>(6, 6) + label;
   const Eigen::Matrix3d in_map = R * object.covariance.block<3, 3>(3, 3) * R.transpose();
-  const Eigen::Matrix2d place =
-      in_map.topLeftCorner<2, 2>() + kOfCentre * label * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d place = in_map.topLeftCorner<2, 2>() + kOfCentre * label;
   result.size_nees = size_error.dot(size.llt().solve(size_error)) / 2;
   result.place_nees = place_error.dot(place.llt().solve(place_error)) / 2;
 }
