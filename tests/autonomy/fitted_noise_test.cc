@@ -256,6 +256,7 @@ TEST(FittedNoise, ReportedCovarianceIsTheGraphsAndTheCommonPart) {
 TEST(UncertaintyFor, WithFixedNoiseViewsAreWorthWhatTheirBiasLeaves) {
   Config config;
   config.active.policy = active::PolicyName::paper;
+  config.uncertainty.model = "models/uncertainty-replica.yaml";
   const uncertainty::View behind{8, std::numbers::pi, NAN, NAN};
   const auto predicted = [&](slam::NoiseSource noise) {
     config.slam.measurement_noise = noise;
