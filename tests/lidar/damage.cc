@@ -1,13 +1,12 @@
 #include "damage.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "made_bag.h"
+#include "memory_limit.h"
 #include "saker/core/error.h"
 #include "saker/core/one_line.h"
 #include "saker/core/rng.h"
@@ -18,33 +17,6 @@ namespace {
 constexpr std::size_t kCuts = 100, kChanges = 100;
 constexpr std::size_t kHead = 1024;
 constexpr rlim_t kMostMemory = rlim_t{512} << 20;
-
-/// Allocations beyond what is held now, and 512 MiB, fail while it lives.
-class MemoryLimit {
- public:
-  MemoryLimit() {
-    ::getrlimit(RLIMIT_DATA, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = held() + kMostMemory;
-    ::setrlimit(RLIMIT_DATA, &limit);
-  }
-  ~MemoryLimit() { ::setrlimit(RLIMIT_DATA, &before_); }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-
- private:
-  static rlim_t held() {
-    std::ifstream status("/proc/self/status");
-    std::string word;
-    while (status >> word && word != "VmData:") {
-    }
-    rlim_t kilobytes = 0;
-    status >> kilobytes;
-    return kilobytes << 10;
-  }
-
-  rlimit before_ = {};
-};
 
 bool one_line(const std::string& text) {
   return std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
@@ -116,7 +88,7 @@ void expect_survives_damage(const std::vector<std::uint8_t>& whole,
   int opened = 0;
   for_each_damage(whole, [&](const std::vector<std::uint8_t>& bytes) {
     write_bytes(file, bytes);
-    const MemoryLimit limit;
+    const MemoryLimit limit(kMostMemory);
     try {
       EXPECT_LE(read_all(file, options, 2 * frames), 2 * frames);
       ++opened;

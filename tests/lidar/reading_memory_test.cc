@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <fstream>
 #include <functional>
 
 #include "made_bag.h"
 #include "made_sensor.h"
+#include "memory_limit.h"
 #include "saker/lidar/recording.h"
 
 /// Memory does not grow with a recording: each is many times larger than what reading it may take.
@@ -17,29 +16,6 @@ using testing::TemporaryFolder;
 constexpr int kScans = 400;
 constexpr std::size_t kPoints = 4000;  // 128 kB: 51 MB in all
 constexpr rlim_t kMostMemory = rlim_t{12} << 20;
-
-/// Allocations beyond what is held now and `kMostMemory` fail while it lives.
-class MemoryLimit {
- public:
-  MemoryLimit() {
-    ::getrlimit(RLIMIT_DATA, &before_);
-    std::ifstream status("/proc/self/status");
-    std::string word;
-    while (status >> word && word != "VmData:") {
-    }
-    rlim_t kilobytes = 0;
-    status >> kilobytes;
-    rlimit limit = before_;
-    limit.rlim_cur = (kilobytes << 10) + kMostMemory;
-    ::setrlimit(RLIMIT_DATA, &limit);
-  }
-  ~MemoryLimit() { ::setrlimit(RLIMIT_DATA, &before_); }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-
- private:
-  rlimit before_ = {};
-};
 
 std::vector<testing::MadeMessage> long_drive(Encoding encoding) {
   std::vector<testing::MadeMessage> messages;
@@ -57,7 +33,7 @@ std::vector<testing::MadeMessage> long_drive(Encoding encoding) {
 }
 
 int scans_within_the_limit(const std::filesystem::path& file) {
-  const MemoryLimit limit;
+  const testing::MemoryLimit limit(kMostMemory);
   const auto source = open_recording(file);
   int scans = 0;
   while (const auto frame = source->next()) scans += frame->fault.empty();
