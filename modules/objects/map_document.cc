@@ -132,17 +132,20 @@ class Node {
   std::string path_;
 };
 
+// A comma initialiser that an exception leaves half done is an assertion in Eigen: numbers first.
 Cuboid read_cuboid(const Node& entry) {
-  return cuboid_of((CuboidNumbers() << entry.at("position").vector<3>(),
-                    entry.at("rotation").unit<4>(), entry.at("size").vector<3>(0, kLargestObject_m))
-                       .finished());
+  const Eigen::Vector3d position = entry.at("position").vector<3>();
+  const Eigen::Vector4d rotation = entry.at("rotation").unit<4>();
+  const Eigen::Vector3d size = entry.at("size").vector<3>(0, kLargestObject_m);
+  return cuboid_of((CuboidNumbers() << position, rotation, size).finished());
 }
 
 Cylinder read_cylinder(const Node& entry) {
-  return cylinder_of((CylinderNumbers() << entry.at("root").vector<3>(), entry.at("axis").unit<3>(),
-                      entry.at("radius").number(0, kLargestObject_m),
-                      entry.at("height").number(0, kLargestObject_m))
-                         .finished());
+  const Eigen::Vector3d root = entry.at("root").vector<3>();
+  const Eigen::Vector3d axis = entry.at("axis").unit<3>();
+  const double radius = entry.at("radius").number(0, kLargestObject_m);
+  const double height = entry.at("height").number(0, kLargestObject_m);
+  return cylinder_of((CylinderNumbers() << root, axis, radius, height).finished());
 }
 
 /// Correlations that are not there are 0.
@@ -150,11 +153,13 @@ CovarianceNumbers read_covariance(const Node& entry, const Model& model) {
   CovarianceNumbers values = CovarianceNumbers::Zero(deviations(model) + correlations(model));
   const Node sd = entry.at("sd");
   if (std::holds_alternative<Cuboid>(model)) {
-    values.head<9>() << sd.at("rotation").vector<3>(0), sd.at("position").vector<3>(0),
-        sd.at("size").vector<3>(0);
+    values.head<3>() = sd.at("rotation").vector<3>(0);
+    values.segment<3>(3) = sd.at("position").vector<3>(0);
+    values.segment<3>(6) = sd.at("size").vector<3>(0);
   } else {
-    values.head<6>() << sd.at("root").vector<3>(0), sd.at("axis").vector<2>(0),
-        sd.at("radius").number(0);
+    values.head<3>() = sd.at("root").vector<3>(0);
+    values.segment<2>(3) = sd.at("axis").vector<2>(0);
+    values[5] = sd.at("radius").number(0);
   }
   if (entry.has("correlation")) {
     values.tail(correlations(model)) = entry.at("correlation").vector(correlations(model), -1, 1);
