@@ -57,6 +57,25 @@ TEST(SizePrior, AKindWithoutADeviationIsRefused) {
   EXPECT_THROW((void)vehicle_kinds(table), Error);
 }
 
+/// Length to be expected of a vehicle of which only width and height are known, m.
+double expected_length(double width, double height) {
+  double sum = 0, weights = 0;
+  for (const VehicleKind& kind : kKinds) {
+    if (!kind.one_vehicle) continue;
+    const double off = (width - kind.plan[1].mean) / kind.plan[1].sd;
+    const double weight = kind.weight * std::exp(-0.5 * off * off) / kind.plan[1].sd *
+                          std::exp(log_likelihood_of_top(height, kind, kHighest, 0.06));
+    sum += weight * kind.plan[0].mean;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+TEST(SizePrior, WidthAndHeightTellLengths) {
+  EXPECT_NEAR(expected_length(1.63, 1.49), 3.57, 0.15) << "Fiat 500";
+  EXPECT_NEAR(expected_length(1.80, 1.48), 4.28, 0.15) << "VW Golf";
+}
+
 TEST(SizePrior, TopTellsTheKind) {
   EXPECT_EQ(likeliest(1.7), "suv");
   EXPECT_EQ(likeliest(2.1), "van");
